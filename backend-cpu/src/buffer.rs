@@ -1,0 +1,102 @@
+//! A block of memory with a layout; which stage may write it is checked when it is borrowed.
+
+use std::cell::{Ref, RefCell, RefMut};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use micropoly_core::abi::{Layout, Shared};
+
+use crate::device::CpuError;
+
+/// Storage unit: keeps every entry aligned.
+type Block = [u32; 4];
+
+/// Entries of one layout in main memory.
+#[derive(Debug)]
+pub struct CpuBuffer {
+    name: &'static str,
+    layout: Layout,
+    entries: usize,
+    blocks: RefCell<Vec<Block>>,
+    bytes: u64,
+    allocated: Arc<AtomicU64>,
+}
+
+impl CpuBuffer {
+    /// Reserves zeroed memory and adds its size to `allocated`.
+    pub(crate) fn new(
+        name: &'static str,
+        layout: Layout,
+        entries: u64,
+        allocated: &Arc<AtomicU64>,
+    ) -> Result<Self, CpuError> {
+        let bytes = entries.saturating_mul(layout.size as u64);
+        let out_of_memory = || CpuError::OutOfMemory { name, bytes };
+        let blocks = usize::try_from(bytes.div_ceil(size_of::<Block>() as u64)).map_err(|_| out_of_memory())?;
+        // Asking first turns what would be an abort into an error; zeroed memory is only touched when used.
+        Vec::<Block>::new().try_reserve_exact(blocks).map_err(|_| out_of_memory())?;
+        allocated.fetch_add(bytes, Ordering::Relaxed);
+        Ok(Self {
+            name,
+            layout,
+            entries: entries as usize,
+            blocks: RefCell::new(vec![[0; 4]; blocks]),
+            bytes,
+            allocated: Arc::clone(allocated),
+        })
+    }
+
+    /// Name given when it was reserved.
+    pub(crate) fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// Layout of its entries.
+    pub(crate) fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    fn check<T: Shared>(&self, entries: usize) -> Result<(), CpuError> {
+        if T::LAYOUT == self.layout && entries <= self.entries {
+            return Ok(());
+        }
+        Err(CpuError::Mismatch { buffer: self.name, wanted: T::LAYOUT.name })
+    }
+
+    /// The entries, to be read.
+    pub(crate) fn view<T: Shared>(&self) -> Result<Ref<'_, [T]>, CpuError> {
+        self.check::<T>(0)?;
+        let blocks = self.blocks.try_borrow().map_err(|_| CpuError::InUse { buffer: self.name })?;
+        let bytes = self.entries * size_of::<T>();
+        Ok(Ref::map(blocks, |b| bytemuck::cast_slice(&bytemuck::cast_slice::<_, u8>(b)[..bytes])))
+    }
+
+    /// The entries, to be written.
+    pub(crate) fn view_mut<T: Shared>(&self) -> Result<RefMut<'_, [T]>, CpuError> {
+        self.check::<T>(0)?;
+        let blocks = self.blocks.try_borrow_mut().map_err(|_| CpuError::InUse { buffer: self.name })?;
+        let bytes = self.entries * size_of::<T>();
+        Ok(RefMut::map(blocks, |b| bytemuck::cast_slice_mut(&mut bytemuck::cast_slice_mut::<_, u8>(b)[..bytes])))
+    }
+
+    /// Copies `data` to the start.
+    pub(crate) fn write<T: Shared>(&self, data: &[T]) -> Result<(), CpuError> {
+        self.check::<T>(data.len())?;
+        self.view_mut::<T>()?[..data.len()].copy_from_slice(data);
+        Ok(())
+    }
+
+    /// Copies entries from `first` on to `out`.
+    pub(crate) fn read<T: Shared>(&self, first: u64, out: &mut [T]) -> Result<(), CpuError> {
+        let first = usize::try_from(first).unwrap_or(usize::MAX);
+        self.check::<T>(first.saturating_add(out.len()))?;
+        out.copy_from_slice(&self.view::<T>()?[first..first + out.len()]);
+        Ok(())
+    }
+}
+
+impl Drop for CpuBuffer {
+    fn drop(&mut self) {
+        self.allocated.fetch_sub(self.bytes, Ordering::Relaxed);
+    }
+}

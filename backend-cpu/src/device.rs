@@ -1,0 +1,144 @@
+//! The CPU as a device: a pool of threads and main memory.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use micropoly_core::abi::{Layout, Shared};
+use micropoly_core::backend::Device;
+use micropoly_core::error::PlanError;
+use micropoly_core::stage::{Items, Stage};
+
+use crate::buffer::CpuBuffer;
+use crate::stages;
+
+/// What can go wrong on the CPU.
+#[derive(Debug)]
+pub enum CpuError {
+    /// The plan itself cannot run.
+    Plan(PlanError),
+    /// The operating system has not got the memory.
+    OutOfMemory {
+        /// Which buffer.
+        name: &'static str,
+        /// Its size.
+        bytes: u64,
+    },
+    /// A buffer has another layout, or fewer entries, than was asked for.
+    Mismatch {
+        /// Which buffer.
+        buffer: &'static str,
+        /// Name of the layout that was asked for.
+        wanted: &'static str,
+    },
+    /// A stage was given the same buffer twice, once to write.
+    InUse {
+        /// Which buffer.
+        buffer: &'static str,
+    },
+    /// A stage was given another number of buffers than it has bindings.
+    Bindings {
+        /// Which stage.
+        stage: &'static str,
+    },
+    /// The threads could not be started.
+    Threads(String),
+}
+
+impl fmt::Display for CpuError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Plan(error) => error.fmt(f),
+            Self::OutOfMemory { name, bytes } => write!(f, "no memory for the {name} buffer of {bytes} bytes"),
+            Self::Mismatch { buffer, wanted } => write!(f, "buffer {buffer} does not hold that many {wanted}"),
+            Self::InUse { buffer } => write!(f, "buffer {buffer} is passed twice to a stage that writes it"),
+            Self::Bindings { stage } => write!(f, "stage {stage} was given the wrong number of buffers"),
+            Self::Threads(why) => write!(f, "cannot start threads: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for CpuError {}
+
+impl From<PlanError> for CpuError {
+    fn from(error: PlanError) -> Self {
+        Self::Plan(error)
+    }
+}
+
+/// A pool of threads that runs the stages.
+#[derive(Debug)]
+pub struct CpuDevice {
+    pool: rayon::ThreadPool,
+    allocated: Arc<AtomicU64>,
+}
+
+impl CpuDevice {
+    /// Starts `threads` threads; 0 = one a core.
+    ///
+    /// # Errors
+    /// [`CpuError::Threads`] if the operating system refuses.
+    pub fn new(threads: usize) -> Result<Self, CpuError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|error| CpuError::Threads(error.to_string()))?;
+        Ok(Self { pool, allocated: Arc::default() })
+    }
+
+    /// Number of threads.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    /// What the device is called in reports.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("CPU ({})", std::env::consts::ARCH)
+    }
+}
+
+impl Device for CpuDevice {
+    type Buffer = CpuBuffer;
+    type Error = CpuError;
+
+    fn allocate(&mut self, name: &'static str, layout: Layout, entries: u64) -> Result<CpuBuffer, CpuError> {
+        CpuBuffer::new(name, layout, entries, &self.allocated)
+    }
+
+    fn bytes_allocated(&self) -> u64 {
+        self.allocated.load(Ordering::Relaxed)
+    }
+
+    fn write<T: Shared>(&mut self, buffer: &CpuBuffer, data: &[T]) -> Result<(), CpuError> {
+        buffer.write(data)
+    }
+
+    fn read<T: Shared>(&mut self, buffer: &CpuBuffer, first: u64, out: &mut [T]) -> Result<(), CpuError> {
+        buffer.read(first, out)
+    }
+
+    fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&CpuBuffer]) -> Result<(), CpuError> {
+        let bindings = stage.bindings();
+        if bindings.len() != buffers.len() {
+            return Err(CpuError::Bindings { stage: stage.name() });
+        }
+        for (binding, buffer) in bindings.iter().zip(buffers) {
+            if binding.layout != buffer.layout() {
+                return Err(CpuError::Mismatch { buffer: buffer.name(), wanted: binding.layout.name });
+            }
+        }
+        let threads = self.threads();
+        match (stage, items) {
+            (Stage::Seed, Items::Count(patches)) => stages::seed(buffers, patches),
+            (Stage::Take, _) => stages::take(buffers),
+            (Stage::Bound, Items::Taken) => stages::bound(&self.pool, buffers),
+            (Stage::Scan, Items::Taken) => stages::scan(buffers),
+            (Stage::Split, Items::Taken) => stages::split(buffers),
+            (Stage::Draw, Items::Drawn) => stages::draw(&self.pool, threads, buffers),
+            (Stage::Flush, _) => stages::flush(buffers),
+            _ => Err(CpuError::Bindings { stage: stage.name() }),
+        }
+    }
+}

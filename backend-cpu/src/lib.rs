@@ -1,0 +1,12 @@
+//! micropoly's stages on the CPU: loops over the functions of `micropoly-core`, spread over threads by
+//! rayon. There is no arithmetic here, so the bits are core's, whatever the number of threads.
+
+mod buffer;
+mod device;
+mod stages;
+
+pub use buffer::CpuBuffer;
+pub use device::{CpuDevice, CpuError};
+
+/// Whether this backend can render.
+pub const AVAILABLE: bool = true;

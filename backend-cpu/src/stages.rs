@@ -1,0 +1,190 @@
+//! Each stage as a loop over its function in core. Surfaces are bounded in chunks, drawn in bands of rows;
+//! a surface that touches several bands is diced in each of them, and every sample has one writer.
+#![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
+
+use micropoly_core::abi::{
+    Colour, Control, Draw, Frame, Limits, Object, Patch, Sample, Slot, Surface, Verdict,
+};
+use micropoly_core::kernel::dice::{Grid, dice};
+use micropoly_core::kernel::sample::{Band, sample};
+use micropoly_core::kernel::scan::scan as scan_batch;
+use micropoly_core::kernel::shade::shade;
+use micropoly_core::kernel::split::{Outcome, split as split_one};
+use micropoly_core::kernel::{bound::bound as bound_one, seed as seeding, take as taking};
+use micropoly_core::patch::Net;
+use multiversion::multiversion;
+use rayon::prelude::*;
+
+use crate::buffer::CpuBuffer;
+use crate::device::CpuError;
+
+/// Surfaces that one thread bounds at a time.
+const BOUND_CHUNK: usize = 256;
+/// Bands of rows a thread: enough to share the work evenly, few enough that little is diced twice.
+const BANDS_A_THREAD: usize = 4;
+
+type Buffers<'a, 'b> = &'a [&'b CpuBuffer];
+
+pub(crate) fn seed(buffers: Buffers<'_, '_>, patches: u32) -> Result<(), CpuError> {
+    let mut stack = buffers[1].view_mut::<Surface>()?;
+    for (position, surface) in stack[..patches as usize].iter_mut().enumerate() {
+        *surface = seeding::seed(position as u32, patches);
+    }
+    buffers[2].view_mut::<Control>()?[0] = seeding::start(patches);
+    Ok(())
+}
+
+pub(crate) fn take(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
+    let limits = buffers[0].view::<Limits>()?[0];
+    let control = &mut buffers[1].view_mut::<Control>()?[0];
+    *control = taking::take(*control, limits.batch);
+    Ok(())
+}
+
+pub(crate) fn flush(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
+    let control = &mut buffers[0].view_mut::<Control>()?[0];
+    *control = taking::flush(*control);
+    Ok(())
+}
+
+pub(crate) fn bound(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
+    let frame = buffers[0].view::<Frame>()?[0];
+    let objects = buffers[1].view::<Object>()?;
+    let patches = buffers[2].view::<Patch>()?;
+    let control = buffers[3].view::<Control>()?[0];
+    let stack = buffers[4].view::<Surface>()?;
+    let (mut batch, mut verdicts) = (buffers[5].view_mut::<Surface>()?, buffers[6].view_mut::<Verdict>()?);
+    let taken = &stack[control.base as usize..][..control.taken as usize];
+    let (objects, patches) = (&*objects, &*patches);
+    batch[..taken.len()].copy_from_slice(taken);
+    let verdicts = &mut verdicts[..taken.len()];
+    pool.install(|| {
+        taken
+            .par_chunks(BOUND_CHUNK)
+            .zip(verdicts.par_chunks_mut(BOUND_CHUNK))
+            .for_each(|(surfaces, verdicts)| bound_chunk(&frame, objects, patches, surfaces, verdicts));
+    });
+    Ok(())
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi1+bmi2+lzcnt+popcnt",
+    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
+))]
+fn bound_chunk(
+    frame: &Frame,
+    objects: &[Object],
+    patches: &[Patch],
+    surfaces: &[Surface],
+    verdicts: &mut [Verdict],
+) {
+    for (surface, verdict) in surfaces.iter().zip(verdicts) {
+        let patch = &patches[surface.patch as usize];
+        *verdict = bound_one(frame, patch, &objects[patch.object as usize], *surface);
+    }
+}
+
+pub(crate) fn scan(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
+    let limits = buffers[0].view::<Limits>()?[0];
+    let verdicts = buffers[1].view::<Verdict>()?;
+    let mut slots = buffers[2].view_mut::<Slot>()?;
+    let control = &mut buffers[3].view_mut::<Control>()?[0];
+    let taken = control.taken as usize;
+    *control =
+        scan_batch(*control, &verdicts[..taken], &mut slots[..taken], limits.stack_room, limits.draw_room);
+    Ok(())
+}
+
+pub(crate) fn split(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
+    let control = buffers[0].view::<Control>()?[0];
+    let batch = buffers[1].view::<Surface>()?;
+    let verdicts = buffers[2].view::<Verdict>()?;
+    let slots = buffers[3].view::<Slot>()?;
+    let (mut stack, mut draws) = (buffers[4].view_mut::<Surface>()?, buffers[5].view_mut::<Draw>()?);
+    if control.overflow > 0 {
+        return Ok(()); // the plan reports it when it next asks
+    }
+    for index in 0..control.taken as usize {
+        match split_one(&control, batch[index], verdicts[index], slots[index]) {
+            Outcome::Culled => {}
+            Outcome::Drawn(place, draw) => draws[place as usize] = draw,
+            Outcome::Split(place, halves) => stack[place as usize..][..2].copy_from_slice(&halves),
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn draw(
+    pool: &rayon::ThreadPool,
+    threads: usize,
+    buffers: Buffers<'_, '_>,
+) -> Result<(), CpuError> {
+    let frame = buffers[0].view::<Frame>()?[0];
+    let objects = buffers[1].view::<Object>()?;
+    let patches = buffers[2].view::<Patch>()?;
+    let control = buffers[3].view::<Control>()?[0];
+    let draws = buffers[4].view::<Draw>()?;
+    let (mut samples, mut colours) = (buffers[5].view_mut::<Sample>()?, buffers[6].view_mut::<Colour>()?);
+    let scene = Scene {
+        frame: &frame,
+        objects: &objects,
+        patches: &patches,
+        draws: &draws[..(control.waiting + control.fresh) as usize],
+    };
+    if scene.draws.is_empty() {
+        return Ok(());
+    }
+    let bands = if threads == 1 { 1 } else { BANDS_A_THREAD * threads };
+    let rows = (frame.height as usize).div_ceil(bands);
+    let chunk = rows * frame.width as usize;
+    let (samples, colours) = (&mut *samples, &mut *colours);
+    pool.install(|| {
+        samples.par_chunks_mut(chunk).zip(colours.par_chunks_mut(chunk)).enumerate().for_each(
+            |(index, (samples, colours))| {
+                let first_row = (index * rows) as u32;
+                draw_band(scene, &mut Band { width: frame.width, first_row, samples, colours });
+            },
+        );
+    });
+    Ok(())
+}
+
+/// What is to be drawn.
+#[derive(Clone, Copy)]
+struct Scene<'a> {
+    frame: &'a Frame,
+    objects: &'a [Object],
+    patches: &'a [Patch],
+    draws: &'a [Draw],
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi1+bmi2+lzcnt+popcnt",
+    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
+))]
+fn draw_band(scene: Scene<'_>, band: &mut Band<'_>) {
+    match scene.frame.rate {
+        ..8 => draw_grids::<8>(scene, band),
+        8..16 => draw_grids::<16>(scene, band),
+        _ => draw_grids::<32>(scene, band),
+    }
+}
+
+/// Dices, shades and samples all surfaces that can touch the band; the grid never leaves the cache.
+#[inline(always)]
+fn draw_grids<const ROW: usize>(scene: Scene<'_>, band: &mut Band<'_>) {
+    let mut grid = Grid::<ROW>::default();
+    let (first_row, end_row) = band.rows();
+    for draw in scene.draws {
+        let (top, bottom) = draw.row_range();
+        if bottom <= first_row || top >= end_row {
+            continue;
+        }
+        let patch = &scene.patches[draw.patch as usize];
+        let object = &scene.objects[patch.object as usize];
+        let net = Net::in_eye_space(patch, object);
+        dice(&net, scene.frame, draw.surface(), &mut grid);
+        shade(scene.frame, object, &mut grid);
+        sample(scene.frame, *draw, &grid, band);
+    }
+}

@@ -1,0 +1,4 @@
+//! The stages on a GPU through wgpu. Not built yet: [`AVAILABLE`] says so, and the program says it too.
+
+/// Whether this backend can render.
+pub const AVAILABLE: bool = false;

@@ -1,0 +1,149 @@
+//! From camera, lights and transforms to the plain structs that kernels read. Host side, in f64.
+//!
+//! Trigonometry comes from `libm`, so that a scene gives the same bits on every platform.
+
+use crate::abi::{Frame, MAX_FOCAL, MAX_LIGHTS, MIN_NEAR, Object};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+/// A perspective camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// World space to eye space: x right, y up, the eye looks along -z.
+    pub view: DAffine3,
+    /// Vertical field of view in degrees, between 0 and 180.
+    pub fov: f64,
+    /// Distance of the near plane.
+    pub near: f64,
+}
+
+/// A light, in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// Parallel light, like the sun's.
+    Directional {
+        /// Direction from the scene to the light; need not be unit.
+        to_light: DVec3,
+        /// Intensity, linear RGB.
+        colour: Vec3,
+    },
+    /// Light from a point, with no loss over distance.
+    Point {
+        /// Where it stands.
+        position: DVec3,
+        /// Intensity, linear RGB.
+        colour: Vec3,
+    },
+}
+
+/// What an object looks like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Diffuse colour, linear RGB.
+    pub colour: Vec3,
+    /// Strength of the highlight; 0 = none.
+    pub specular: f32,
+    /// The highlight is `cosine^(2^gloss)`.
+    pub gloss: u32,
+}
+
+/// How a frame is to be rendered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameOptions {
+    /// Image width in pixels.
+    pub width: u32,
+    /// Image height in pixels.
+    pub height: u32,
+    /// Largest extent of a drawn surface on screen, in pixels (Weber 2014: 8).
+    pub bound: f32,
+    /// Micropolygons a side of a drawn surface: 1, 2, 4, 8 or 16.
+    pub rate: u32,
+    /// Levels `k`: a surface is split at most `k - 1` times (Weber 2014: 23).
+    pub levels: u32,
+    /// Skip grids that show only their back.
+    pub cull_backfaces: bool,
+}
+
+impl Default for FrameOptions {
+    fn default() -> Self {
+        Self { width: 1280, height: 720, bound: 8.0, rate: 8, levels: 23, cull_backfaces: false }
+    }
+}
+
+impl Camera {
+    /// A camera at `eye` that looks at `target`; `up` points upwards in the image.
+    ///
+    /// Returns `None` if `eye` and `target` coincide or `up` is along the view.
+    #[must_use]
+    pub fn look_at(eye: DVec3, target: DVec3, up: DVec3, fov: f64, near: f64) -> Option<Self> {
+        let back = (eye - target).try_normalize()?;
+        let right = up.cross(back).try_normalize()?;
+        let axes = DMat3::from_cols(right, back.cross(right), back).transpose();
+        Some(Self { view: DAffine3::from_mat3_translation(axes, -(axes * eye)), fov, near })
+    }
+
+    /// Focal length in pixels for an image of this height.
+    #[must_use]
+    pub fn focal(&self, height: u32) -> f64 {
+        0.5 * f64::from(height) / libm::tan(self.fov.to_radians() * 0.5)
+    }
+
+    /// Does the camera give a focal length and a near plane that kernels can work with?
+    #[must_use]
+    pub fn is_usable(&self, height: u32) -> bool {
+        let focal = self.focal(height);
+        focal > f64::from(1.0 / MAX_FOCAL)
+            && focal <= f64::from(MAX_FOCAL)
+            && self.near as f32 >= MIN_NEAR
+            && self.near <= f64::from(crate::abi::MAX_COORDINATE)
+    }
+
+    /// Everything the kernels need to know; lights beyond [`MAX_LIGHTS`] are left out.
+    #[must_use]
+    pub fn frame(&self, options: &FrameOptions, ambient: Vec3, lights: &[Light]) -> Frame {
+        let mut frame = Frame {
+            width: options.width,
+            height: options.height,
+            focal: self.focal(options.height) as f32,
+            centre_x: options.width as f32 * 0.5,
+            centre_y: options.height as f32 * 0.5,
+            near: self.near as f32,
+            bound: options.bound,
+            levels: options.levels,
+            rate: options.rate,
+            flags: if options.cull_backfaces { crate::abi::FLAG_CULL_BACKFACES } else { 0 },
+            ambient: ambient.to_array(),
+            ..Frame::default()
+        };
+        for (index, light) in lights.iter().take(MAX_LIGHTS).enumerate() {
+            (frame.light_vector[index], frame.light_colour[index]) = self.light(light);
+            frame.light_count = index as u32 + 1;
+        }
+        frame
+    }
+
+    fn light(&self, light: &Light) -> ([f32; 4], [f32; 3]) {
+        let (vector, w, colour) = match *light {
+            Light::Directional { to_light, colour } => {
+                (self.view.transform_vector3(to_light).normalize_or_zero(), 0.0, colour)
+            }
+            Light::Point { position, colour } => (self.view.transform_point3(position), 1.0, colour),
+        };
+        let [x, y, z] = vector.as_vec3().to_array();
+        ([x, y, z, w], colour.to_array())
+    }
+
+    /// An object with its transform to eye space.
+    #[must_use]
+    pub fn object(&self, to_world: DAffine3, material: &Material) -> Object {
+        let to_eye = self.view * to_world;
+        let mut rows = [0.0; 12];
+        for row in 0..3 {
+            for column in 0..3 {
+                rows[4 * row + column] = to_eye.matrix3.col(column)[row] as f32;
+            }
+            rows[4 * row + 3] = to_eye.translation[row] as f32;
+        }
+        let Material { colour, specular, gloss } = *material;
+        Object { to_eye: rows, colour: colour.to_array(), specular, gloss }
+    }
+}

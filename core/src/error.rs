@@ -1,0 +1,51 @@
+//! What can go wrong in a plan, with the numbers in it.
+
+use core::fmt;
+
+/// A plan cannot run, or could not finish.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlanError {
+    /// A size, option or count that no frame can have.
+    Invalid {
+        /// Which option.
+        option: &'static str,
+        /// The value that was asked for.
+        value: u64,
+        /// Smallest allowed value.
+        least: u64,
+        /// Largest allowed value.
+        most: u64,
+    },
+    /// The memory budget is too small for the frame.
+    Budget {
+        /// Bytes the budget has.
+        have: u64,
+        /// Bytes the smallest possible plan needs.
+        needed: u64,
+    },
+    /// A buffer ran full although its size was proven: smaller buffers were passed than the plan asked for.
+    Overflow {
+        /// Name of the buffer.
+        buffer: &'static str,
+        /// Entries beyond its size that were needed.
+        excess: u64,
+    },
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Invalid { option, value, least, most } => {
+                write!(f, "{option} is {value}, but must be {least} to {most}")
+            }
+            Self::Budget { have, needed } => {
+                write!(f, "a memory budget of {have} bytes is too small; this frame needs at least {needed} bytes")
+            }
+            Self::Overflow { buffer, excess } => {
+                write!(f, "the {buffer} buffer is {excess} entries too small")
+            }
+        }
+    }
+}
+
+impl core::error::Error for PlanError {}

@@ -1,0 +1,14 @@
+//! One pure function a stage, one stage a file; device kernels mirror them by name.
+#![deny(clippy::float_arithmetic)]
+
+pub mod bound;
+pub mod clip;
+pub mod dice;
+pub mod project;
+pub mod sample;
+pub mod scan;
+pub mod seed;
+pub mod shade;
+pub mod split;
+pub mod take;
+pub mod triangle;

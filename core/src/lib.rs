@@ -1,0 +1,35 @@
+//! The heart of micropoly: a Reyes pipeline as pure functions over plain structs.
+//!
+//! No `std`, no allocator, no threads, no I/O: callers bring the memory, backends bring the loops.
+//! The way one frame takes, and where each step lives:
+//!
+//! | step | function | file |
+//! |---|---|---|
+//! | camera and scene become plain structs | [`camera::Camera::frame`] | `camera.rs`, [`abi`] |
+//! | one root surface a patch | [`kernel::seed::seed`] | `kernel/seed.rs` |
+//! | the next batch from the top of the stack | [`kernel::take::take`] | `kernel/take.rs` |
+//! | cull, draw or split, decided conservatively | [`kernel::bound::bound`] | `kernel/bound.rs` |
+//! | where each child and each drawn surface goes | [`kernel::scan::scan`] | `kernel/scan.rs` |
+//! | children back to the stack, the rest to be drawn | [`kernel::split::split`] | `kernel/split.rs` |
+//! | a drawn surface becomes a grid of vertices | [`kernel::dice::dice`] | `kernel/dice.rs` |
+//! | a colour a vertex | [`kernel::shade::shade`] | `kernel/shade.rs` |
+//! | micropolygons become samples | [`kernel::sample::sample`] | `kernel/sample.rs` |
+//! | who calls what, in which order | [`schedule::Bounded`], [`render::FramePlan`] | `schedule/`, `render.rs` |
+//! | how much memory that can ever need | [`memory`] | `memory.rs` |
+//! | what a backend must bring | [`backend::Device`] | `backend.rs` |
+//!
+//! All kernel arithmetic goes through [`num`], so that every device computes the same bits.
+#![no_std]
+
+pub mod abi;
+pub mod backend;
+pub mod camera;
+pub mod error;
+pub mod kernel;
+pub mod memory;
+pub mod num;
+pub mod patch;
+pub mod render;
+pub mod schedule;
+pub mod stage;
+pub mod surface;

@@ -1,0 +1,168 @@
+//! How much memory a frame can ever need, as `const fn`s that every allocation uses.
+//!
+//! The bound on the surface stack sharpens Weber 2014, sec. 4.3: `n` roots, batches of `p`, levels
+//! `0 .. k`, where level `k - 1` is never split. The stack stays sorted by level, and a batch that is full
+//! always takes the deepest surfaces, so each of the `k - 1` levels can leave at most one batch behind.
+
+use crate::abi::{
+    Colour, Control, Draw, Frame, Limits, MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface, Verdict,
+};
+use crate::error::PlanError;
+
+/// Largest batch that can be asked for.
+pub const MAX_BATCH: u32 = 1 << 24;
+/// Batch where neither batch nor memory is asked for: the buffers of a batch fit a second-level cache.
+pub const DEFAULT_BATCH: u32 = 4096;
+/// The draw buffer holds several small batches, so that there is enough to rasterise at once …
+const DRAW_BATCHES: u32 = 8;
+/// … but no more than this many surfaces, unless a single batch is larger.
+const DRAW_TARGET: u32 = 1 << 16;
+
+/// Exact maximum of the stack for `n` roots, batches of `p` and `k` levels; all at least 1.
+///
+/// While a batch is not yet full everything can double; from then on each level adds at most `p`.
+#[must_use]
+pub const fn stack_exact(n: u64, p: u64, k: u64) -> u64 {
+    let (mut most, mut levels_left) = (n, k.saturating_sub(1));
+    while levels_left > 0 && most < p {
+        most *= 2;
+        levels_left -= 1;
+    }
+    most.saturating_add(p.saturating_mul(levels_left))
+}
+
+/// Closed form that is never below [`stack_exact`], and equal to it for `n` ≥ `p`.
+#[must_use]
+pub const fn stack_bound(n: u64, p: u64, k: u64) -> u64 {
+    let first = if n > p { n } else { p };
+    first.saturating_add(p.saturating_mul(k.saturating_sub(1)))
+}
+
+/// Smallest stack with which any scheduler can finish: one surface at a time, depth first.
+#[must_use]
+pub const fn stack_min(n: u64, k: u64) -> u64 {
+    n + k.saturating_sub(1)
+}
+
+/// Sizes of all buffers of one frame, in entries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// Patches of the scene.
+    pub patches: u32,
+    /// Objects of the scene.
+    pub objects: u32,
+    /// Surfaces a batch.
+    pub batch: u32,
+    /// Levels `k`.
+    pub levels: u32,
+    /// Image width in pixels.
+    pub width: u32,
+    /// Image height in pixels.
+    pub height: u32,
+}
+
+impl Sizes {
+    /// Checks every size against its limits.
+    ///
+    /// # Errors
+    /// [`PlanError::Invalid`] names the first size that no frame can have.
+    pub const fn checked(self) -> Result<Self, PlanError> {
+        let limits = [
+            ("number of patches", self.patches, 1, u32::MAX / 2),
+            ("number of objects", self.objects, 1, u32::MAX / 2),
+            ("batch", self.batch, 1, MAX_BATCH),
+            ("number of levels (max-depth)", self.levels, 1, MAX_LEVELS),
+            ("image width", self.width, 1, MAX_RESOLUTION),
+            ("image height", self.height, 1, MAX_RESOLUTION),
+        ];
+        let mut index = 0;
+        while index < limits.len() {
+            let (option, value, least, most) = limits[index];
+            if value < least || value > most {
+                return Err(invalid(option, value as u64, least as u64, most as u64));
+            }
+            index += 1;
+        }
+        if self.stack_entries() > u32::MAX as u64 {
+            return Err(invalid("surface stack", self.stack_entries(), 1, u32::MAX as u64));
+        }
+        Ok(self)
+    }
+
+    /// Surfaces that the stack must hold.
+    #[must_use]
+    pub const fn stack_entries(&self) -> u64 {
+        stack_exact(self.patches as u64, self.batch as u64, self.levels as u64)
+    }
+
+    /// Batches after which the draw buffer may be full.
+    #[must_use]
+    pub const fn batches_a_draw(&self) -> u32 {
+        let fitting = DRAW_TARGET / self.batch;
+        if fitting < 1 {
+            1
+        } else if fitting > DRAW_BATCHES {
+            DRAW_BATCHES
+        } else {
+            fitting
+        }
+    }
+
+    /// Surfaces that the draw buffer must hold.
+    #[must_use]
+    pub const fn draw_entries(&self) -> u64 {
+        self.batch as u64 * self.batches_a_draw() as u64
+    }
+
+    /// Samples of the image.
+    #[must_use]
+    pub const fn pixels(&self) -> u64 {
+        self.width as u64 * self.height as u64
+    }
+
+    /// Bytes of everything that does not depend on the batch.
+    const fn fixed_bytes(&self) -> u64 {
+        self.patches as u64 * size_of::<Patch>() as u64
+            + self.objects as u64 * size_of::<Object>() as u64
+            + self.pixels() * (size_of::<Sample>() + size_of::<Colour>()) as u64
+            + (size_of::<Frame>() + size_of::<Control>() + size_of::<Limits>()) as u64
+    }
+
+    /// Bytes of all buffers together.
+    #[must_use]
+    pub const fn bytes(&self) -> u64 {
+        let batch_entry = size_of::<Surface>() + size_of::<Verdict>() + size_of::<Slot>();
+        self.fixed_bytes()
+            + self.stack_entries() * size_of::<Surface>() as u64
+            + self.batch as u64 * batch_entry as u64
+            + self.draw_entries() * size_of::<Draw>() as u64
+    }
+
+    /// The same frame with the largest batch, up to `most`, whose buffers fit into `budget` bytes.
+    ///
+    /// # Errors
+    /// [`PlanError::Budget`] names the smallest budget if a batch of one surface does not fit.
+    pub const fn fitted(self, budget: u64, most: u32) -> Result<Self, PlanError> {
+        let smallest = Self { batch: 1, ..self };
+        if smallest.bytes() > budget {
+            return Err(PlanError::Budget { have: budget, needed: smallest.bytes() });
+        }
+        let (mut fits, mut beyond) = (1, most + 1);
+        while beyond - fits > 1 {
+            let middle = fits + (beyond - fits) / 2;
+            if (Self { batch: middle, ..self }).bytes() <= budget {
+                fits = middle;
+            } else {
+                beyond = middle;
+            }
+        }
+        Ok(Self { batch: fits, ..self })
+    }
+}
+
+const fn invalid(option: &'static str, value: u64, least: u64, most: u64) -> PlanError {
+    PlanError::Invalid { option, value, least, most }
+}
+
+// The published configuration of Weber 2014: 1024 roots, batches of 256, 25 levels in 7168 entries.
+const _: () = assert!(stack_exact(1024, 256, 25) <= 7168);

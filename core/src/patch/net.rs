@@ -1,0 +1,97 @@
+//! Sixteen control points in eye space, a coordinate an array, index `4·i + j` with `i` along `u`.
+
+use crate::abi::{Object, Patch};
+use crate::num::{abs, add, max, mul};
+use crate::patch::bezier::blossom;
+
+use crate::abi::Surface;
+
+/// Control net of a bicubic patch or of a part of it, eye space (the eye looks along -z).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Net {
+    /// x of the control points.
+    pub x: [f32; 16],
+    /// y of the control points.
+    pub y: [f32; 16],
+    /// z of the control points.
+    pub z: [f32; 16],
+}
+
+impl Net {
+    /// Control net of the whole patch, moved to eye space.
+    #[inline(always)]
+    #[must_use]
+    pub fn in_eye_space(patch: &Patch, object: &Object) -> Self {
+        let m = &object.to_eye;
+        let coordinate = |row: usize| {
+            let mut out = [0.0; 16];
+            for (l, out) in out.iter_mut().enumerate() {
+                let xy = add(mul(m[row], patch.x[l]), mul(m[row + 1], patch.y[l]));
+                *out = add(add(xy, mul(m[row + 2], patch.z[l])), m[row + 3]);
+            }
+            out
+        };
+        Self { x: coordinate(0), y: coordinate(4), z: coordinate(8) }
+    }
+
+    /// Largest magnitude among all coordinates: the measure for rounding errors.
+    #[inline(always)]
+    #[must_use]
+    pub fn extent(&self) -> f32 {
+        let mut largest = [0.0; 16];
+        for (l, largest) in largest.iter_mut().enumerate() {
+            *largest = max(max(abs(self.x[l]), abs(self.y[l])), abs(self.z[l]));
+        }
+        fold(&largest, max)
+    }
+
+    /// Control net of the part of the patch that `surface` covers: its convex hull contains that part.
+    ///
+    /// Computed by blossoming (Ramshaw 1989): every new control point is a convex combination of old ones.
+    #[inline(always)]
+    #[must_use]
+    pub fn restricted(&self, surface: Surface) -> Self {
+        let along_u = blossom(surface.u, surface.u + surface.u_size());
+        let along_v = blossom(surface.v, surface.v + surface.v_size());
+        let part = |c: &[f32; 16]| combine_v(&combine_u(c, &along_u), &along_v);
+        Self { x: part(&self.x), y: part(&self.y), z: part(&self.z) }
+    }
+}
+
+/// `weights` applied along `u`: four weighted sums of the rows of the net.
+#[inline(always)]
+fn combine_u(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
+    let mut out = [0.0; 16];
+    for l in 0..16 {
+        let (w, j) = (&weights[l / 4], l % 4);
+        let low = add(mul(w[0], c[j]), mul(w[1], c[4 + j]));
+        out[l] = add(low, add(mul(w[2], c[8 + j]), mul(w[3], c[12 + j])));
+    }
+    out
+}
+
+/// `weights` applied along `v`: four weighted sums of the columns of the net.
+#[inline(always)]
+fn combine_v(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
+    let mut out = [0.0; 16];
+    for l in 0..16 {
+        let (w, i) = (&weights[l % 4], l / 4 * 4);
+        let low = add(mul(w[0], c[i]), mul(w[1], c[i + 1]));
+        out[l] = add(low, add(mul(w[2], c[i + 2]), mul(w[3], c[i + 3])));
+    }
+    out
+}
+
+/// All sixteen numbers reduced to one in a fixed tree.
+#[inline(always)]
+pub(crate) fn fold(lanes: &[f32; 16], join: impl Fn(f32, f32) -> f32) -> f32 {
+    let mut lanes = *lanes;
+    let mut width = 8;
+    while width > 0 {
+        for l in 0..width {
+            lanes[l] = join(lanes[l], lanes[l + width]);
+        }
+        width /= 2;
+    }
+    lanes[0]
+}

@@ -1,0 +1,189 @@
+//! One frame as a plan: buffers, uploads and the order of stages, on any device.
+
+use crate::abi::{
+    Colour, Control, Draw, Frame, Layout, Limits, Object, Patch, Sample, Shared, Slot, Surface, Verdict,
+};
+use crate::backend::Device;
+use crate::error::PlanError;
+use crate::memory::Sizes;
+use crate::schedule::{Bounded, Step};
+use crate::stage::{Items, Stage};
+
+/// What a frame counted. Independent of device, batch and threads, but for `max_stack`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Surfaces that were bounded.
+    pub processed: u64,
+    /// Surfaces that were diced.
+    pub drawn: u64,
+    /// Surfaces found invisible.
+    pub culled: u64,
+    /// Drawn surfaces that were larger than the bound but could not be split any further.
+    pub depth_limited: u64,
+    /// Micropolygons of all drawn surfaces.
+    pub micropolygons: u64,
+    /// Largest number of surfaces that lay on the stack.
+    pub max_stack: u64,
+    /// Roots that may not have been touched yet: a measure of progress.
+    pub roots_left: u64,
+}
+
+impl Counts {
+    fn add(&mut self, control: &Control, rate: u32) {
+        self.processed += u64::from(control.processed);
+        self.drawn += u64::from(control.drawn);
+        self.culled += u64::from(control.culled);
+        self.depth_limited += u64::from(control.limited);
+        self.micropolygons = self.drawn * u64::from(rate) * u64::from(rate);
+        self.max_stack = u64::from(control.peak);
+        self.roots_left = u64::from(control.low);
+    }
+}
+
+/// The buffers of one frame.
+#[derive(Debug)]
+pub struct Buffers<B> {
+    frame: B,
+    objects: B,
+    patches: B,
+    limits: B,
+    control: B,
+    stack: B,
+    batch: B,
+    verdicts: B,
+    slots: B,
+    draws: B,
+    /// The nearest micropolygon at each sample, row after row from the top.
+    pub samples: B,
+    /// Its colour.
+    pub colours: B,
+}
+
+/// A frame to be rendered: its sizes are checked, its memory is known.
+#[derive(Clone, Copy, Debug)]
+pub struct FramePlan {
+    sizes: Sizes,
+    frame: Frame,
+}
+
+impl FramePlan {
+    /// Plans a frame of `patches` and `objects` with batches of `batch` surfaces.
+    ///
+    /// # Errors
+    /// [`PlanError::Invalid`] if a size or option is out of range.
+    pub const fn new(frame: Frame, patches: u32, objects: u32, batch: u32) -> Result<Self, PlanError> {
+        let Frame { width, height, levels, .. } = frame;
+        match (Sizes { patches, objects, batch, levels, width, height }).checked() {
+            Ok(sizes) => Ok(Self { sizes, frame }),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Sizes of all buffers.
+    #[must_use]
+    pub const fn sizes(&self) -> &Sizes {
+        &self.sizes
+    }
+
+    /// Reserves all buffers and uploads the scene.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn prepare<D: Device>(
+        &self,
+        device: &mut D,
+        objects: &[Object],
+        patches: &[Patch],
+    ) -> Result<Buffers<D::Buffer>, D::Error> {
+        let sizes = &self.sizes;
+        let limits = Limits {
+            patches: sizes.patches,
+            batch: sizes.batch,
+            stack_room: sizes.stack_entries() as u32,
+            draw_room: sizes.draw_entries() as u32,
+        };
+        let mut reserve =
+            |name, layout: Layout, entries: u64| device.allocate(name, layout, entries);
+        let batch = u64::from(sizes.batch);
+        let buffers = Buffers {
+            frame: reserve("frame", Frame::LAYOUT, 1)?,
+            objects: reserve("objects", Object::LAYOUT, u64::from(sizes.objects))?,
+            patches: reserve("patches", Patch::LAYOUT, u64::from(sizes.patches))?,
+            limits: reserve("limits", Limits::LAYOUT, 1)?,
+            control: reserve("control", Control::LAYOUT, 1)?,
+            stack: reserve("stack", Surface::LAYOUT, sizes.stack_entries())?,
+            batch: reserve("batch", Surface::LAYOUT, batch)?,
+            verdicts: reserve("verdicts", Verdict::LAYOUT, batch)?,
+            slots: reserve("slots", Slot::LAYOUT, batch)?,
+            draws: reserve("draws", Draw::LAYOUT, sizes.draw_entries())?,
+            samples: reserve("samples", Sample::LAYOUT, sizes.pixels())?,
+            colours: reserve("colours", Colour::LAYOUT, sizes.pixels())?,
+        };
+        device.write(&buffers.frame, &[self.frame])?;
+        device.write(&buffers.objects, objects)?;
+        device.write(&buffers.patches, patches)?;
+        device.write(&buffers.limits, &[limits])?;
+        Ok(buffers)
+    }
+
+    /// Renders the frame into `buffers.samples` and `buffers.colours`; `progress` sees the counts so far.
+    ///
+    /// # Errors
+    /// What the device reports; [`PlanError::Overflow`] if a buffer ran full.
+    pub fn run<D: Device>(
+        &self,
+        device: &mut D,
+        buffers: &Buffers<D::Buffer>,
+        mut progress: impl FnMut(&Counts),
+    ) -> Result<Counts, D::Error> {
+        let mut counts = Counts::default();
+        let mut schedule = Bounded::new(self.sizes.batches_a_draw());
+        loop {
+            match schedule.step() {
+                Step::Seed => {
+                    let all = [&buffers.limits, &buffers.stack, &buffers.control];
+                    device.dispatch(Stage::Seed, Items::Count(self.sizes.patches), &all)?;
+                }
+                Step::Batch => run_batch(device, buffers)?,
+                Step::Draw => draw(device, buffers)?,
+                Step::Ask => {
+                    let control = ask(device, buffers)?;
+                    counts.add(&control, self.frame.rate);
+                    progress(&counts);
+                    schedule.answer(&control);
+                }
+                Step::Done => return Ok(counts),
+            }
+        }
+    }
+}
+
+fn run_batch<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
+    device.dispatch(Stage::Take, Items::Count(1), &[&b.limits, &b.control])?;
+    let bound = [&b.frame, &b.objects, &b.patches, &b.control, &b.stack, &b.batch, &b.verdicts];
+    device.dispatch(Stage::Bound, Items::Taken, &bound)?;
+    let scan = [&b.limits, &b.verdicts, &b.slots, &b.control];
+    device.dispatch(Stage::Scan, Items::Taken, &scan)?;
+    let split = [&b.control, &b.batch, &b.verdicts, &b.slots, &b.stack, &b.draws];
+    device.dispatch(Stage::Split, Items::Taken, &split)
+}
+
+fn draw<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
+    let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
+    device.dispatch(Stage::Draw, Items::Drawn, &draw)?;
+    device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
+}
+
+/// Reads the counts and starts them anew.
+fn ask<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<Control, D::Error> {
+    let mut control = [Control::default()];
+    device.read(&b.control, 0, &mut control)?;
+    let [control] = control;
+    if control.overflow > 0 {
+        let excess = u64::from(control.overflow);
+        return Err(PlanError::Overflow { buffer: "surface stack or draw", excess }.into());
+    }
+    let rest = Control { processed: 0, culled: 0, drawn: 0, limited: 0, ..control };
+    device.write(&b.control, &[rest])?;
+    Ok(control)
+}

@@ -1,0 +1,137 @@
+//! The stages as data: names, bindings and group sizes, so that plans are data too and mirrors can be
+//! checked against this table by reflection.
+
+use crate::abi::{
+    Colour, Control, Draw, Frame, Layout, Limits, Object, Patch, Sample, Shared, Slot, Surface, Verdict,
+};
+
+/// How a stage uses a buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// It only reads.
+    Read,
+    /// It writes, and may read.
+    Write,
+}
+
+/// One buffer that a stage needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Binding {
+    /// Its name, the same on every device.
+    pub name: &'static str,
+    /// Layout of its entries.
+    pub layout: Layout,
+    /// What the stage does with it.
+    pub access: Access,
+}
+
+const fn read<T: Shared>(name: &'static str) -> Binding {
+    Binding { name, layout: T::LAYOUT, access: Access::Read }
+}
+
+const fn write<T: Shared>(name: &'static str) -> Binding {
+    Binding { name, layout: T::LAYOUT, access: Access::Write }
+}
+
+/// How many items a stage works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Items {
+    /// So many; the host knows.
+    Count(u32),
+    /// One a surface of the batch in flight: [`Control::taken`], known on the device.
+    Taken,
+    /// One a draw in the draw buffer: [`Control::waiting`] + [`Control::fresh`], known on the device.
+    Drawn,
+}
+
+/// The stages of a frame, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// One root surface a patch: [`crate::kernel::seed`].
+    Seed,
+    /// The next batch: [`crate::kernel::take`].
+    Take,
+    /// Cull, draw or split: [`crate::kernel::bound`].
+    Bound,
+    /// Places of all outputs: [`crate::kernel::scan`].
+    Scan,
+    /// Children to the stack, the rest to the draw buffer: [`crate::kernel::split`].
+    Split,
+    /// Dice, shade and sample each drawn surface, fused: [`crate::kernel::dice`],
+    /// [`crate::kernel::shade`], [`crate::kernel::sample`].
+    Draw,
+    /// Empties the draw buffer: [`crate::kernel::take::flush`].
+    Flush,
+}
+
+impl Stage {
+    /// Every stage, in order.
+    pub const ALL: [Self; 7] =
+        [Self::Seed, Self::Take, Self::Bound, Self::Scan, Self::Split, Self::Draw, Self::Flush];
+
+    /// Its name: that of its file on every device.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Seed => "seed",
+            Self::Take => "take",
+            Self::Bound => "bound",
+            Self::Scan => "scan",
+            Self::Split => "split",
+            Self::Draw => "draw",
+            Self::Flush => "flush",
+        }
+    }
+
+    /// The buffers it needs, in the order in which they are passed.
+    #[must_use]
+    pub const fn bindings(self) -> &'static [Binding] {
+        match self {
+            Self::Seed => {
+                const { &[read::<Limits>("limits"), write::<Surface>("stack"), write::<Control>("control")] }
+            }
+            Self::Take => const { &[read::<Limits>("limits"), write::<Control>("control")] },
+            Self::Bound => const {
+                &[
+                    read::<Frame>("frame"),
+                    read::<Object>("objects"),
+                    read::<Patch>("patches"),
+                    read::<Control>("control"),
+                    read::<Surface>("stack"),
+                    write::<Surface>("batch"),
+                    write::<Verdict>("verdicts"),
+                ]
+            },
+            Self::Scan => const {
+                &[
+                    read::<Limits>("limits"),
+                    read::<Verdict>("verdicts"),
+                    write::<Slot>("slots"),
+                    write::<Control>("control"),
+                ]
+            },
+            Self::Split => const {
+                &[
+                    read::<Control>("control"),
+                    read::<Surface>("batch"),
+                    read::<Verdict>("verdicts"),
+                    read::<Slot>("slots"),
+                    write::<Surface>("stack"),
+                    write::<Draw>("draws"),
+                ]
+            },
+            Self::Draw => const {
+                &[
+                    read::<Frame>("frame"),
+                    read::<Object>("objects"),
+                    read::<Patch>("patches"),
+                    read::<Control>("control"),
+                    read::<Draw>("draws"),
+                    write::<Sample>("samples"),
+                    write::<Colour>("colours"),
+                ]
+            },
+            Self::Flush => const { &[write::<Control>("control")] },
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Arguments and options, checked as they are read.
+
+use std::path::PathBuf;
+
+use bytesize::ByteSize;
+use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
+use micropoly::core::memory::MAX_BATCH;
+use micropoly::{Batch, FrameOptions, RenderOptions};
+
+/// Reyes micropolygon renderer: the same bits on every device.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to a PNG file.
+    Render(RenderArguments),
+    /// Say what is in a scene and how much memory a frame of it can need.
+    Info(InfoArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RenderArguments {
+    /// Scene file (.toml) or patch file (.bpt).
+    pub(crate) scene: PathBuf,
+    /// Image file to write (.png).
+    #[arg(short, long, value_name = "FILE", value_parser = png_path)]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) frame: FrameArguments,
+    /// Write statistics as JSON to this file; - writes to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+    /// How to show progress on standard error: a bar on a terminal, plain lines, or nothing.
+    #[arg(long, value_enum, default_value_t = ProgressStyle::Auto)]
+    pub(crate) progress: ProgressStyle,
+    /// What to render on.
+    #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
+    pub(crate) backend: BackendChoice,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InfoArguments {
+    /// Scene file (.toml) or patch file (.bpt).
+    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) frame: FrameArguments,
+}
+
+/// What a frame is to be like, and how it is worked on.
+#[derive(Debug, Args)]
+pub(crate) struct FrameArguments {
+    /// Image size in pixels.
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = resolution)]
+    res: (u32, u32),
+    /// Split surfaces until they are at most this many pixels long.
+    #[arg(long, value_name = "PIXELS", default_value = "8", allow_negative_numbers = true, value_parser = pixels)]
+    bound: f32,
+    /// Micropolygons a side of a drawn surface: 1, 2, 4, 8 or 16.
+    #[arg(long, value_name = "N", default_value = "8", allow_negative_numbers = true, value_parser = rate)]
+    dice: u32,
+    /// Levels of subdivision: a patch is halved at most N - 1 times.
+    #[arg(long, value_name = "N", default_value = "23", allow_negative_numbers = true,
+          value_parser = value_parser!(u32).range(1..=i64::from(MAX_LEVELS)))]
+    max_depth: u32,
+    /// Surfaces worked on at once. The image does not depend on it.
+    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "memory",
+          value_parser = value_parser!(u32).range(1..=i64::from(MAX_BATCH)))]
+    batch: Option<u32>,
+    /// Memory that the device may use, for example 64MiB. The image does not depend on it.
+    #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = bytes)]
+    memory: Option<u64>,
+    /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
+    #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true,
+          value_parser = value_parser!(u16).range(0..=1024))]
+    threads: u16,
+    /// Skip grids of micropolygons that show only their back (closed objects look the same).
+    #[arg(long)]
+    cull_backfaces: bool,
+}
+
+impl FrameArguments {
+    pub(crate) fn options(&self) -> RenderOptions {
+        let (width, height) = self.res;
+        let batch = match (self.batch, self.memory) {
+            (Some(batch), _) => Batch::Surfaces(batch),
+            (None, Some(bytes)) => Batch::Memory(bytes),
+            (None, None) => Batch::default(),
+        };
+        let frame = FrameOptions {
+            width,
+            height,
+            bound: self.bound,
+            rate: self.dice,
+            levels: self.max_depth,
+            cull_backfaces: self.cull_backfaces,
+        };
+        RenderOptions { frame, batch, threads: usize::from(self.threads) }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressStyle {
+    /// A bar if standard error is a terminal, else plain lines.
+    Auto,
+    /// A line now and then.
+    Plain,
+    /// Nothing.
+    None,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BackendChoice {
+    /// The best that is there.
+    Auto,
+    /// The CPU.
+    Cpu,
+    /// A GPU through wgpu.
+    Wgpu,
+    /// An OpenCL device.
+    Ocl,
+}
+
+fn png_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    if is_png { Ok(path) } else { Err("only PNG images can be written: choose a name that ends in .png".into()) }
+}
+
+fn resolution(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(width, height)| {
+        Some((width.trim().parse::<u32>().ok()?, height.trim().parse::<u32>().ok()?))
+    });
+    let allowed = 1..=MAX_RESOLUTION;
+    match sides {
+        None => Err("write width and height in pixels, for example 1280x720".into()),
+        Some((width, height)) if allowed.contains(&width) && allowed.contains(&height) => Ok((width, height)),
+        Some(_) => Err(format!("width and height must be 1 to {MAX_RESOLUTION} pixels each")),
+    }
+}
+
+fn pixels(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if value >= 0.01 && value <= 1.0e6 => Ok(value),
+        _ => Err("choose a number of pixels from 0.01 to 1000000".into()),
+    }
+}
+
+fn rate(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(value) if value.is_power_of_two() && value <= MAX_RATE => Ok(value),
+        _ => Err("choose 1, 2, 4, 8 or 16".into()),
+    }
+}
+
+fn bytes(text: &str) -> Result<u64, String> {
+    match text.parse::<ByteSize>() {
+        Ok(size) => Ok(size.as_u64()),
+        Err(_) => Err("write a number of bytes, for example 67108864, 64MiB or 1GB".into()),
+    }
+}

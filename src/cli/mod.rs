@@ -1,0 +1,35 @@
+//! The command-line program: one file a command.
+
+mod args;
+mod info;
+mod progress;
+mod render;
+mod summary;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+use micropoly::Error;
+
+use args::{Arguments, Command};
+
+/// Exit code when a backend is missing, as for wrong arguments.
+const UNAVAILABLE: u8 = 2;
+
+/// Runs the program and turns errors into messages and exit codes.
+pub(crate) fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Info(arguments) => info::run(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            match error {
+                Error::Backend { .. } => ExitCode::from(UNAVAILABLE),
+                _ => ExitCode::FAILURE,
+            }
+        }
+    }
+}

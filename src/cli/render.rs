@@ -1,0 +1,73 @@
+//! `micropoly render`.
+
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+
+use micropoly::stats::Stats;
+use micropoly::{Error, Result, Scene, Seconds};
+
+use super::args::{BackendChoice, RenderArguments};
+use super::progress::Progress;
+use super::summary;
+
+pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
+    let start = Instant::now();
+    check_backend(arguments.backend)?;
+    check_folder(&arguments.output)?;
+    let options = arguments.frame.options();
+    let scene = Scene::load(&arguments.scene)?;
+    let load = start.elapsed().as_secs_f64();
+
+    let mut progress = Progress::new(arguments.progress, scene.patch_count() as u64);
+    let rendering = micropoly::render(&scene, &options, |counts| progress.update(counts))?;
+    progress.finish();
+
+    let encoding = Instant::now();
+    rendering.image.save_png(&arguments.output)?;
+    let encode = encoding.elapsed().as_secs_f64();
+    let total = start.elapsed().as_secs_f64();
+    let seconds = Seconds { load, encode, total, ..rendering.seconds };
+    let stats = Stats::new(&scene.name, "cpu", &options, &rendering, seconds);
+    if let Some(path) = &arguments.stats {
+        write_stats(path, &stats)?;
+    }
+    eprint!("{}", summary::of(&stats, &arguments.output));
+    Ok(())
+}
+
+fn check_backend(choice: BackendChoice) -> Result<()> {
+    let missing = |backend: &str, built: bool| {
+        let why = if built { "it cannot render yet" } else { "this program was built without it" };
+        Err(Error::Backend { backend: backend.to_owned(), why: why.to_owned() })
+    };
+    match choice {
+        BackendChoice::Auto | BackendChoice::Cpu => Ok(()),
+        BackendChoice::Wgpu => missing("wgpu", cfg!(feature = "wgpu")),
+        BackendChoice::Ocl => missing("ocl", cfg!(feature = "ocl")),
+    }
+}
+
+/// Finds out before a long rendering that its image could not be written.
+fn check_folder(output: &Path) -> Result<()> {
+    let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+    match folder {
+        Some(folder) if !folder.is_dir() => {
+            let why = format!("there is no folder {}", folder.display());
+            Err(Error::Write { path: output.to_owned(), why })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn write_stats(path: &Path, stats: &Stats) -> Result<()> {
+    let failed = |why: String| Error::Write { path: path.to_owned(), why };
+    let mut json = serde_json::to_string_pretty(stats).map_err(|error| failed(error.to_string()))?;
+    json.push('\n');
+    let written = if path == Path::new("-") {
+        std::io::stdout().write_all(json.as_bytes())
+    } else {
+        std::fs::write(path, json)
+    };
+    written.map_err(|error| failed(error.to_string()))
+}

@@ -1,0 +1,48 @@
+//! What a rendering took, on one screen.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use bytesize::ByteSize;
+use micropoly::stats::Stats;
+
+/// The summary as text.
+pub(crate) fn of(stats: &Stats, output: &Path) -> String {
+    let surfaces = &stats.surfaces;
+    let seconds = &stats.seconds;
+    let ms = |seconds: f64| format!("{:.1}", seconds * 1e3);
+    let rows = [
+        ("image", format!("{} ({}x{})", output.display(), stats.options.width, stats.options.height)),
+        ("device", stats.device.clone()),
+        ("patches", stats.patches.to_string()),
+        (
+            "surfaces",
+            format!(
+                "{} processed, {} drawn, {} culled, {} depth-limited",
+                surfaces.processed, surfaces.drawn, surfaces.culled, surfaces.depth_limited
+            ),
+        ),
+        ("micropolygons", stats.micropolygons.to_string()),
+        ("stack", format!("{} surfaces at most, proven bound {}", surfaces.max_stack, surfaces.stack_bound)),
+        ("memory", ByteSize(stats.bytes_allocated).display().iec().to_string()),
+        (
+            "milliseconds",
+            format!(
+                "load {}, setup {}, bound {}, split {}, draw {}, resolve {}, encode {}, total {}",
+                ms(seconds.load),
+                ms(seconds.setup),
+                ms(seconds.bound),
+                ms(seconds.split),
+                ms(seconds.draw),
+                ms(seconds.resolve),
+                ms(seconds.encode),
+                ms(seconds.total)
+            ),
+        ),
+        ("image hash", stats.image_hash.clone()),
+    ];
+    rows.iter().fold(String::new(), |mut text, (name, value)| {
+        let _ = writeln!(text, "{name:<14}{value}");
+        text
+    })
+}

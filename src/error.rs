@@ -1,0 +1,106 @@
+//! Errors as a user reads them: where, what, and what to do about it.
+
+use std::path::{Path, PathBuf};
+
+use micropoly_core::error::PlanError;
+
+/// Why a scene could not be read or rendered.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A file could not be read.
+    #[error("{}: cannot be read: {source}\n  help: check the path and its permissions", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// A file could not be written.
+    #[error("{}: cannot be written: {why}\n  help: check that the folder exists and may be written to", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What went wrong.
+        why: String,
+    },
+    /// A file does not hold what it should.
+    #[error("{}:{line}: {problem}\n  help: {remedy}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// What is wrong there.
+        problem: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// Scene and options do not go together.
+    #[error("{problem}\n  help: {remedy}")]
+    Scene {
+        /// What is wrong.
+        problem: String,
+        /// What to do about it.
+        remedy: String,
+    },
+    /// No frame can have such sizes, or the memory budget is too small.
+    #[error("{error}\n  help: {help}", error = .0, help = remedy(.0))]
+    Plan(PlanError),
+    /// A backend is not there.
+    #[error("backend {backend} is not available: {why}\n  help: use --backend cpu")]
+    Backend {
+        /// Which backend.
+        backend: String,
+        /// Why not.
+        why: String,
+    },
+    /// The device failed.
+    #[error("the device failed: {0}\n  help: try a smaller --res, --batch or --memory")]
+    Device(String),
+}
+
+/// Everything that can fail in this crate fails with [`Error`].
+pub type Result<T> = std::result::Result<T, Error>;
+
+impl Error {
+    pub(crate) fn format(
+        path: &Path,
+        line: usize,
+        problem: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self::Format { path: path.to_owned(), line, problem: problem.into(), remedy: remedy.into() }
+    }
+
+    pub(crate) fn scene(problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Scene { problem: problem.into(), remedy: remedy.into() }
+    }
+}
+
+fn remedy(error: &PlanError) -> String {
+    match error {
+        PlanError::Invalid { option, least, most, .. } => format!("choose a {option} from {least} to {most}"),
+        PlanError::Budget { needed, .. } => format!("use --memory {needed} or more, or a smaller --res"),
+        PlanError::Overflow { .. } => "this is a bug: please report it with the scene".to_owned(),
+    }
+}
+
+/// Line, counted from 1, of a byte offset in a text.
+pub(crate) fn line_at(text: &[u8], offset: usize) -> usize {
+    1 + text[..offset.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+}
+
+/// Reads a text file.
+pub(crate) fn read_text(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
+    utf8(path, bytes)
+}
+
+/// The text in these bytes, without a byte order mark.
+pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String> {
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let line = line_at(error.as_bytes(), error.utf8_error().valid_up_to());
+        Error::format(path, line, "this is not text in UTF-8", "is this the right file?")
+    })?;
+    Ok(text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned))
+}

@@ -1,0 +1,107 @@
+//! Images: linear colours to 8-bit sRGB, a hash of the pixels, PNG files.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+
+use glam::Vec3;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use micropoly_core::abi::Colour;
+
+use crate::error::{Error, Result};
+
+/// 8-bit sRGB pixels, row after row from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Image {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// Red, green and blue of each pixel.
+    pub rgb: Vec<u8>,
+}
+
+impl Image {
+    /// `blake3:` and the hash of width, height and pixels.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&self.width.to_le_bytes());
+        hasher.update(&self.height.to_le_bytes());
+        hasher.update(&self.rgb);
+        format!("blake3:{}", hasher.finalize().to_hex())
+    }
+
+    /// Writes a PNG file.
+    ///
+    /// # Errors
+    /// [`Error::Write`] names the file.
+    pub fn save_png(&self, path: &Path) -> Result<()> {
+        let failed = |why: String| Error::Write { path: path.to_owned(), why };
+        let file = BufWriter::new(File::create(path).map_err(|error| failed(error.to_string()))?);
+        PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Sub)
+            .write_image(&self.rgb, self.width, self.height, ExtendedColorType::Rgb8)
+            .map_err(|error| failed(error.to_string()))
+    }
+}
+
+/// Steps of the table from linear values to sRGB: fine enough for the steepest part of the curve, where
+/// one of 255 levels is 20 steps wide.
+const STEPS: usize = 1 << 16;
+
+/// Turns linear colours into 8-bit sRGB by table.
+pub(crate) struct Encoder {
+    level: Vec<u8>,
+    background: [u8; 3],
+}
+
+impl Encoder {
+    /// `background` (linear RGB) shows where nothing covers a sample.
+    pub(crate) fn new(background: Vec3) -> Self {
+        let mut level = vec![255; STEPS];
+        let mut next = 0;
+        for output in 0..255_u8 {
+            let boundary = linear_from_srgb((f64::from(output) + 0.5) / 255.0);
+            let end = (boundary * (STEPS - 1) as f64).ceil() as usize;
+            level[next..end].fill(output);
+            next = end;
+        }
+        let mut encoder = Self { level, background: [0; 3] };
+        encoder.background = background.to_array().map(|value| encoder.encode(value));
+        encoder
+    }
+
+    fn encode(&self, linear: f32) -> u8 {
+        self.level[(linear.clamp(0.0, 1.0) * (STEPS - 1) as f32 + 0.5) as usize]
+    }
+
+    /// Appends the pixels of `colours`.
+    pub(crate) fn append(&self, colours: &[Colour], rgb: &mut Vec<u8>) {
+        rgb.extend(colours.iter().flat_map(|&Colour { rgba: [red, green, blue, coverage] }| {
+            if coverage > 0.0 { [red, green, blue].map(|value| self.encode(value)) } else { self.background }
+        }));
+    }
+}
+
+/// The linear value, 0 to 1, of an sRGB value, 0 to 1 (IEC 61966-2-1).
+pub(crate) fn linear_from_srgb(value: f64) -> f64 {
+    if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn encoding_is_the_nearest_srgb_level_and_reaches_all() {
+        let encoder = Encoder::new(Vec3::ZERO);
+        for level in 0..=255_u8 {
+            let linear = linear_from_srgb(f64::from(level) / 255.0) as f32;
+            assert_eq!(encoder.encode(linear), level);
+        }
+        assert_eq!(encoder.encode(-1.0), 0);
+        assert_eq!(encoder.encode(2.0), 255);
+        assert_eq!(encoder.encode(f32::NAN), 0);
+    }
+}

@@ -1,0 +1,38 @@
+//! micropoly: a Reyes micropolygon renderer that gives the same bits on every device.
+//!
+//! ```no_run
+//! use micropoly::{RenderOptions, Scene};
+//!
+//! # fn main() -> micropoly::Result<()> {
+//! let scene = Scene::load("scenes/teapot.toml")?;
+//! let rendering = micropoly::render(&scene, &RenderOptions::default(), |_| {})?;
+//! rendering.image.save_png("teapot.png".as_ref())?;
+//! println!("{} surfaces drawn", rendering.counts.drawn);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! This crate holds what a host needs around the kernels: scenes and their files, images, statistics and
+//! the choice of a device. The kernels and the plans that run them are in [`core`](micropoly_core).
+
+pub mod bpt;
+pub mod error;
+pub mod generate;
+mod image;
+mod render;
+mod scene;
+pub mod scene_file;
+pub mod stats;
+mod timed;
+
+pub use micropoly_core as core;
+
+pub use crate::core::camera::{Camera, FrameOptions, Light, Material};
+pub use crate::core::render::Counts;
+pub use crate::error::{Error, Result};
+pub use crate::image::Image;
+#[cfg(feature = "cpu")]
+pub use crate::render::render;
+pub use crate::render::{Batch, RenderOptions, Rendering, render_on, sizes_for};
+pub use crate::scene::{BezierPatch, DeviceScene, Scene, SceneObject};
+pub use crate::timed::Seconds;

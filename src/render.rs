@@ -1,0 +1,148 @@
+//! Rendering a scene: choice of device, the plan, the image, the statistics.
+
+use std::time::Instant;
+
+use micropoly_core::backend::Device;
+use micropoly_core::camera::FrameOptions;
+use micropoly_core::error::PlanError;
+use micropoly_core::memory::{DEFAULT_BATCH, Sizes};
+use micropoly_core::render::{Counts, FramePlan};
+
+use crate::error::{Error, Result};
+use crate::image::{Encoder, Image};
+use crate::scene::{DeviceScene, Scene};
+use crate::timed::{Seconds, Timed};
+
+/// Rows that are read from the device and encoded at once.
+const RESOLVE_ROWS: u32 = 16;
+
+/// How many surfaces are worked on at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Batch {
+    /// So many.
+    Surfaces(u32),
+    /// As many as fit into so many bytes together with everything else that the device holds.
+    Memory(u64),
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self::Surfaces(DEFAULT_BATCH)
+    }
+}
+
+/// Everything that can be chosen about a rendering.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RenderOptions {
+    /// Image size, bound, dice rate, depth.
+    pub frame: FrameOptions,
+    /// Batch size or memory budget. The image does not depend on it.
+    pub batch: Batch,
+    /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
+    pub threads: usize,
+}
+
+/// An image, and what it took.
+#[derive(Clone, Debug)]
+pub struct Rendering {
+    /// The image.
+    pub image: Image,
+    /// What was counted on the way.
+    pub counts: Counts,
+    /// Buffer sizes, and so the proven bounds.
+    pub sizes: Sizes,
+    /// Bytes that the device held.
+    pub bytes_allocated: u64,
+    /// Name of the device.
+    pub device: String,
+    /// Wall time by stage.
+    pub seconds: Seconds,
+}
+
+/// Renders on the CPU; `progress` is told the counts so far, now and then.
+///
+/// # Errors
+/// [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
+#[cfg(feature = "cpu")]
+pub fn render(scene: &Scene, options: &RenderOptions, progress: impl FnMut(&Counts)) -> Result<Rendering> {
+    let device = micropoly_backend_cpu::CpuDevice::new(options.threads)
+        .map_err(|error| Error::Device(error.to_string()))?;
+    let name = device.name();
+    render_on(device, name, scene, options, progress)
+}
+
+/// Renders on any device.
+///
+/// # Errors
+/// [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
+pub fn render_on<D: Device>(
+    device: D,
+    device_name: String,
+    scene: &Scene,
+    options: &RenderOptions,
+    progress: impl FnMut(&Counts),
+) -> Result<Rendering> {
+    let start = Instant::now();
+    let DeviceScene { frame, objects, patches } = scene.for_device(&options.frame)?;
+    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+    let batch = chosen_batch(options, count(patches.len()), count(objects.len()))?;
+    let plan =
+        FramePlan::new(frame, count(patches.len()), count(objects.len()), batch).map_err(Error::Plan)?;
+    let mut device = Timed::new(device);
+    let failed = |error: D::Error| Error::Device(error.to_string());
+    let buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
+    let bytes_allocated = device.bytes_allocated();
+    let setup = start.elapsed().as_secs_f64();
+    let counts = plan.run(&mut device, &buffers, progress).map_err(failed)?;
+    let resolving = Instant::now();
+    let image = resolve(&mut device, &buffers.colours, scene, &options.frame).map_err(failed)?;
+    let seconds = Seconds { setup, resolve: resolving.elapsed().as_secs_f64(), ..device.seconds };
+    let sizes = *plan.sizes();
+    Ok(Rendering { image, counts, sizes, bytes_allocated, device: device_name, seconds })
+}
+
+/// The batch that was asked for, or the one that fits the budget.
+fn chosen_batch(options: &RenderOptions, patches: u32, objects: u32) -> Result<u32> {
+    match options.batch {
+        Batch::Surfaces(batch) => Ok(batch),
+        Batch::Memory(budget) => {
+            let FrameOptions { width, height, levels, .. } = options.frame;
+            let smallest = Sizes { patches, objects, batch: 1, levels, width, height }.checked();
+            let fitted = smallest.and_then(|sizes| sizes.fitted(budget, DEFAULT_BATCH));
+            fitted.map(|sizes| sizes.batch).map_err(Error::Plan)
+        }
+    }
+}
+
+/// What the plan would allocate for a scene.
+///
+/// # Errors
+/// [`Error::Plan`] if it cannot be rendered so.
+pub fn sizes_for(scene: &Scene, options: &RenderOptions) -> Result<Sizes> {
+    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+    let (patches, objects) = (count(scene.patch_count()), count(scene.objects.len()));
+    let batch = chosen_batch(options, patches, objects)?;
+    let FrameOptions { width, height, levels, .. } = options.frame;
+    let sizes: std::result::Result<Sizes, PlanError> =
+        Sizes { patches, objects, batch, levels, width, height }.checked();
+    sizes.map_err(Error::Plan)
+}
+
+fn resolve<D: Device>(
+    device: &mut D,
+    colours: &D::Buffer,
+    scene: &Scene,
+    options: &FrameOptions,
+) -> std::result::Result<Image, D::Error> {
+    let FrameOptions { width, height, .. } = *options;
+    let encoder = Encoder::new(scene.background);
+    let mut rgb = Vec::with_capacity(width as usize * height as usize * 3);
+    let mut block = vec![bytemuck::Zeroable::zeroed(); (width * RESOLVE_ROWS.min(height)) as usize];
+    for row in (0..height).step_by(RESOLVE_ROWS as usize) {
+        let rows = RESOLVE_ROWS.min(height - row);
+        let block = &mut block[..(width * rows) as usize];
+        device.read(colours, u64::from(row) * u64::from(width), block)?;
+        encoder.append(block, &mut rgb);
+    }
+    Ok(Image { width, height, rgb })
+}

@@ -1,0 +1,183 @@
+//! A scene in memory, and how it becomes the plain structs that devices read.
+
+use std::path::Path;
+
+use glam::{DAffine3, DVec3, Vec3};
+use micropoly_core::abi::{Frame, MAX_COORDINATE, Object, Patch};
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
+
+use crate::error::{Error, Result};
+use crate::{bpt, scene_file};
+
+/// A bicubic Bézier patch: 16 control points, index `4·i + j` with `i` along u.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BezierPatch {
+    /// Control points in object space.
+    pub points: [[f32; 3]; 16],
+}
+
+/// Patches that share a transform and a material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneObject {
+    /// Its patches, in object space.
+    pub patches: Vec<BezierPatch>,
+    /// Object space to world space.
+    pub to_world: DAffine3,
+    /// Its looks.
+    pub material: Material,
+}
+
+/// All there is to see, and from where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Where it was read from, for messages and statistics.
+    pub name: String,
+    /// The camera.
+    pub camera: Camera,
+    /// Colour where nothing is, linear RGB.
+    pub background: Vec3,
+    /// Light from everywhere, linear RGB.
+    pub ambient: Vec3,
+    /// The lights; at most [`micropoly_core::abi::MAX_LIGHTS`].
+    pub lights: Vec<Light>,
+    /// The objects.
+    pub objects: Vec<SceneObject>,
+}
+
+/// A scene as devices read it.
+#[derive(Clone, Debug)]
+pub struct DeviceScene {
+    /// Camera, lights and limits.
+    pub frame: Frame,
+    /// Transforms and materials.
+    pub objects: Vec<Object>,
+    /// All patches, object by object.
+    pub patches: Vec<Patch>,
+}
+
+impl Scene {
+    /// Reads a scene file (`.toml`), or a patch file (`.bpt`) with a camera that shows all of it.
+    ///
+    /// # Errors
+    /// [`Error::Read`], [`Error::Format`] with file and line, or [`Error::Scene`].
+    pub fn load(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("bpt") => Self::around(path, bpt::load(path)?),
+            Some("toml") => scene_file::load(path),
+            _ if !path.exists() => {
+                let source = std::io::Error::from(std::io::ErrorKind::NotFound);
+                Err(Error::Read { path: path.to_owned(), source })
+            }
+            _ => Err(Error::scene(
+                format!("{}: a scene file ends in .toml, a patch file in .bpt", path.display()),
+                "rename the file, or convert it",
+            )),
+        }
+    }
+
+    /// A scene of one grey object, seen from the front, the right and above; z is up.
+    fn around(path: &Path, patches: Vec<BezierPatch>) -> Result<Self> {
+        let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5 };
+        let objects = vec![SceneObject { patches, to_world: DAffine3::IDENTITY, material }];
+        let (low, high) = bounds_of(&objects);
+        let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
+        let radius = if radius > 0.0 { radius } else { 1.0 };
+        let eye = middle + DVec3::new(0.5, -0.75, 0.45).normalize() * radius * 3.0;
+        let camera = Camera::look_at(eye, middle, DVec3::Z, 40.0, radius * 0.01)
+            .ok_or_else(|| Error::scene("the patches lie too far out", "scale them down"))?;
+        let to_light = camera.view.inverse().transform_vector3(DVec3::new(-0.5, 0.8, 0.9));
+        Ok(Self {
+            name: path.display().to_string(),
+            camera,
+            background: Vec3::splat(0.8),
+            ambient: Vec3::splat(0.15),
+            lights: vec![Light::Directional { to_light, colour: Vec3::splat(0.9) }],
+            objects,
+        })
+    }
+
+    /// Number of patches of all objects.
+    #[must_use]
+    pub fn patch_count(&self) -> usize {
+        self.objects.iter().map(|object| object.patches.len()).sum()
+    }
+
+    /// Corners of the box around all control points, in world space.
+    #[must_use]
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        bounds_of(&self.objects)
+    }
+
+    /// The scene as devices read it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if there is nothing to draw, or numbers are beyond what kernels can work with.
+    pub fn for_device(&self, options: &FrameOptions) -> Result<DeviceScene> {
+        if self.patch_count() == 0 {
+            return Err(Error::scene("the scene has no patches", "add an [[object]] with geometry"));
+        }
+        check_options(options)?;
+        if !self.camera.is_usable(options.height) {
+            return Err(Error::scene(
+                "the camera's near plane or field of view is out of range",
+                "near must be 1e-6 or more, fov between 0 and 180 degrees",
+            ));
+        }
+        let mut patches = Vec::with_capacity(self.patch_count());
+        let mut objects = Vec::with_capacity(self.objects.len());
+        for (index, object) in self.objects.iter().enumerate() {
+            let placed = self.camera.object(object.to_world, &object.material);
+            check_extent(&placed, object)?;
+            objects.push(placed);
+            patches.extend(object.patches.iter().map(|patch| device_patch(patch, index as u32)));
+        }
+        Ok(DeviceScene { frame: self.camera.frame(options, self.ambient, &self.lights), objects, patches })
+    }
+}
+
+fn device_patch(patch: &BezierPatch, object: u32) -> Patch {
+    let axis = |k: usize| patch.points.map(|point| point[k]);
+    Patch { x: axis(0), y: axis(1), z: axis(2), object }
+}
+
+fn bounds_of(objects: &[SceneObject]) -> (DVec3, DVec3) {
+    let mut corners = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for object in objects {
+        for point in object.patches.iter().flat_map(|patch| patch.points) {
+            let point = object.to_world.transform_point3(Vec3::from(point).as_dvec3());
+            corners = (corners.0.min(point), corners.1.max(point));
+        }
+    }
+    corners
+}
+
+fn check_options(options: &FrameOptions) -> Result<()> {
+    if !(options.rate.is_power_of_two() && options.rate <= micropoly_core::abi::MAX_RATE) {
+        let problem = format!("a dice rate of {} is not possible", options.rate);
+        return Err(Error::scene(problem, "choose 1, 2, 4, 8 or 16"));
+    }
+    if !(options.bound > 0.0 && options.bound <= 1.0e6) {
+        let problem = format!("a bound of {} pixels is not possible", options.bound);
+        return Err(Error::scene(problem, "choose a number of pixels above 0, for example 8"));
+    }
+    Ok(())
+}
+
+/// Refuses what would overflow in the kernels: NaN, infinities, coordinates beyond 10¹².
+fn check_extent(placed: &Object, object: &SceneObject) -> Result<()> {
+    let m = &placed.to_eye;
+    let furthest = object.patches.iter().flat_map(|patch| patch.points).fold(0.0_f64, |furthest, [x, y, z]| {
+        let reach = |r: usize| {
+            let parts = [m[r] * x, m[r + 1] * y, m[r + 2] * z, m[r + 3]];
+            parts.iter().map(|part| f64::from(part.abs())).sum::<f64>()
+        };
+        // `max` would pass over NaN.
+        [reach(0), reach(4), reach(8)].into_iter().fold(furthest, |a, b| if b <= a { a } else { b })
+    });
+    if furthest <= f64::from(MAX_COORDINATE) {
+        return Ok(());
+    }
+    let problem = format!("an object reaches {furthest:e} units from the eye; 1e12 is the limit");
+    Err(Error::scene(problem, "scale the scene down, or remove the outlying points"))
+}

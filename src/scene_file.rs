@@ -1,0 +1,316 @@
+//! Scene files: TOML, written by hand. `README.md` shows every field.
+
+use std::path::Path;
+
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use micropoly_core::abi::{MAX_LIGHTS, MIN_NEAR};
+use micropoly_core::camera::{Camera, Light, Material};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::error::{Error, Result, line_at, read_text, utf8};
+use crate::generate::{self, Generator};
+use crate::image::linear_from_srgb;
+use crate::scene::{BezierPatch, Scene, SceneObject};
+
+/// Most patches that one generator may make.
+const MAX_GENERATED: u32 = 10_000_000;
+
+type Vector = Spanned<[f64; 3]>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneTable {
+    camera: Spanned<CameraTable>,
+    background: Option<Spanned<ColourValue>>,
+    ambient: Option<Spanned<ColourValue>>,
+    #[serde(default)]
+    light: Vec<Spanned<LightTable>>,
+    #[serde(default)]
+    object: Vec<Spanned<ObjectTable>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CameraTable {
+    eye: Vector,
+    target: Vector,
+    up: Option<Vector>,
+    fov: Spanned<f64>,
+    near: Spanned<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LightTable {
+    direction: Option<Vector>,
+    position: Option<Vector>,
+    colour: Option<Spanned<ColourValue>>,
+    intensity: Option<Spanned<f64>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ObjectTable {
+    geometry: Option<Spanned<String>>,
+    patches: Option<Spanned<Vec<Spanned<Vec<[f64; 3]>>>>>,
+    generate: Option<Spanned<GenerateTable>>,
+    scale: Option<Spanned<ScaleValue>>,
+    rotate: Option<Vector>,
+    translate: Option<Vector>,
+    colour: Option<Spanned<ColourValue>>,
+    specular: Option<Spanned<f64>>,
+    shininess: Option<Spanned<u32>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct GenerateTable {
+    kind: Generator,
+    count: u32,
+    #[serde(default)]
+    seed: u64,
+}
+
+/// `[r, g, b]`, linear; or `"#rrggbb"`, sRGB.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum ColourValue {
+    Linear([f64; 3]),
+    Srgb(String),
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum ScaleValue {
+    Uniform(f64),
+    PerAxis([f64; 3]),
+}
+
+/// Reads a scene file and the patch files it names.
+///
+/// # Errors
+/// [`Error::Read`] or [`Error::Format`] with file and line.
+pub fn load(path: &Path) -> Result<Scene> {
+    parse(path, &read_text(path)?)
+}
+
+/// Reads a scene from bytes; files that it names are looked for beside `path`.
+///
+/// # Errors
+/// [`Error::Read`] or [`Error::Format`] with file and line.
+pub fn parse_bytes(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
+    parse(path, &utf8(path, bytes)?)
+}
+
+fn parse(path: &Path, text: &str) -> Result<Scene> {
+    let at = Place { path, text };
+    let table: SceneTable = toml::from_str(text).map_err(|error| at.syntax(&error))?;
+    if let Some(extra) = table.light.get(MAX_LIGHTS) {
+        return Err(at.wrong(extra, format!("there are more than {MAX_LIGHTS} lights"), "remove some"));
+    }
+    let mut objects = Vec::with_capacity(table.object.len());
+    for object in &table.object {
+        objects.push(at.object(object)?);
+    }
+    if objects.is_empty() {
+        return Err(Error::format(path, 1, "the scene has no [[object]]", "add one with geometry = \"file.bpt\""));
+    }
+    Ok(Scene {
+        name: path.display().to_string(),
+        camera: at.camera(&table.camera)?,
+        background: at.colour(table.background.as_ref(), Vec3::ZERO)?,
+        ambient: at.colour(table.ambient.as_ref(), Vec3::splat(0.1))?,
+        lights: table.light.iter().map(|light| at.light(light)).collect::<Result<_>>()?,
+        objects,
+    })
+}
+
+/// The text that is read, for messages with a line.
+struct Place<'a> {
+    path: &'a Path,
+    text: &'a str,
+}
+
+impl Place<'_> {
+    fn wrong<T>(&self, value: &Spanned<T>, problem: impl Into<String>, remedy: impl Into<String>) -> Error {
+        Error::format(self.path, line_at(self.text.as_bytes(), value.span().start), problem, remedy)
+    }
+
+    fn syntax(&self, error: &toml::de::Error) -> Error {
+        let start = error.span().map_or(0, |span| span.start);
+        let line = line_at(self.text.as_bytes(), start);
+        let problem = error.message().replace('\n', " ");
+        Error::format(self.path, line, problem, "see \"Scene files\" in the README for all fields")
+    }
+
+    fn vector(&self, value: &Vector) -> Result<DVec3> {
+        let vector = DVec3::from(*value.get_ref());
+        if vector.is_finite() && vector.abs().max_element() <= 1.0e12 {
+            return Ok(vector);
+        }
+        Err(self.wrong(value, "a number here is not finite or beyond 1e12", "use smaller numbers"))
+    }
+
+    fn number(&self, value: &Spanned<f64>, what: &str, least: f64, most: f64) -> Result<f64> {
+        let number = *value.get_ref();
+        if number >= least && number <= most {
+            return Ok(number);
+        }
+        let problem = format!("{what} is {number}");
+        Err(self.wrong(value, problem, format!("choose a {what} from {least:?} to {most:?}")))
+    }
+
+    fn colour(&self, value: Option<&Spanned<ColourValue>>, otherwise: Vec3) -> Result<Vec3> {
+        let Some(value) = value else { return Ok(otherwise) };
+        let linear = match value.get_ref() {
+            ColourValue::Linear(rgb) => Some(DVec3::from(*rgb)),
+            ColourValue::Srgb(text) => srgb(text),
+        };
+        match linear {
+            Some(rgb) if rgb.min_element() >= 0.0 && rgb.max_element() <= 1.0e6 => Ok(rgb.as_vec3()),
+            _ => Err(self.wrong(
+                value,
+                "this is not a colour",
+                "write [r, g, b] with linear values from 0, or \"#rrggbb\" in sRGB",
+            )),
+        }
+    }
+
+    fn camera(&self, table: &Spanned<CameraTable>) -> Result<Camera> {
+        let CameraTable { eye, target, up, fov, near } = table.get_ref();
+        let up = up.as_ref().map_or(Ok(DVec3::Z), |up| self.vector(up))?;
+        let fov = self.number(fov, "fov", 0.001, 179.0)?;
+        let near = self.number(near, "near", f64::from(MIN_NEAR), 1.0e12)?;
+        let (eye_at, target) = (self.vector(eye)?, self.vector(target)?);
+        Camera::look_at(eye_at, target, up, fov, near).ok_or_else(|| {
+            self.wrong(eye, "the camera looks nowhere, or straight along `up`", "move eye, target or up")
+        })
+    }
+
+    fn light(&self, table: &Spanned<LightTable>) -> Result<Light> {
+        let LightTable { direction, position, colour, intensity } = table.get_ref();
+        let colour = self.colour(colour.as_ref(), Vec3::ONE)?;
+        let intensity = intensity.as_ref().map_or(Ok(1.0), |i| self.number(i, "intensity", 0.0, 1.0e6))?;
+        let colour = colour * intensity as f32;
+        match (direction, position) {
+            (Some(direction), None) => {
+                let to_light = -self.vector(direction)?;
+                if to_light.try_normalize().is_none() {
+                    return Err(self.wrong(direction, "the direction is zero", "say where the light goes"));
+                }
+                Ok(Light::Directional { to_light, colour })
+            }
+            (None, Some(position)) => Ok(Light::Point { position: self.vector(position)?, colour }),
+            _ => Err(self.wrong(
+                table,
+                "a light has either a direction (in which it shines) or a position",
+                "give one of the two",
+            )),
+        }
+    }
+
+    fn object(&self, table: &Spanned<ObjectTable>) -> Result<SceneObject> {
+        let object = table.get_ref();
+        let patches = match (&object.geometry, &object.patches, &object.generate) {
+            (Some(file), None, None) => self.geometry(file)?,
+            (None, Some(list), None) => self.inline_patches(list)?,
+            (None, None, Some(generator)) => self.generated(generator)?,
+            _ => {
+                let problem = "an object has exactly one of geometry, patches and generate";
+                return Err(self.wrong(table, problem, "for example geometry = \"teapot.bpt\""));
+            }
+        };
+        Ok(SceneObject { patches, to_world: self.transform(object)?, material: self.material(object)? })
+    }
+
+    fn geometry(&self, file: &Spanned<String>) -> Result<Vec<BezierPatch>> {
+        let path = self.path.parent().unwrap_or(Path::new("")).join(file.get_ref());
+        if path.extension().is_none_or(|extension| extension != "bpt") {
+            let problem = format!("geometry \"{}\" is not a .bpt file", file.get_ref());
+            return Err(self.wrong(file, problem, "only Bézier patch files (.bpt) can be read so far"));
+        }
+        if !path.is_file() {
+            let problem = format!("geometry \"{}\" does not exist", path.display());
+            return Err(self.wrong(file, problem, "paths are relative to the scene file"));
+        }
+        crate::bpt::load(&path)
+    }
+
+    fn inline_patches(&self, list: &Spanned<Vec<Spanned<Vec<[f64; 3]>>>>) -> Result<Vec<BezierPatch>> {
+        let mut patches = Vec::with_capacity(list.get_ref().len());
+        for patch in list.get_ref() {
+            let points: [[f64; 3]; 16] = patch.get_ref().as_slice().try_into().map_err(|_| {
+                let problem = format!("a patch of {} points", patch.get_ref().len());
+                self.wrong(patch, problem, "a bicubic patch has 16 points")
+            })?;
+            let points = points.map(|point| point.map(|value| value as f32));
+            if !points.iter().flatten().all(|value| value.is_finite()) {
+                return Err(self.wrong(patch, "a coordinate is not finite", "replace NaN and infinities"));
+            }
+            patches.push(BezierPatch { points });
+        }
+        if patches.is_empty() {
+            return Err(self.wrong(list, "the list of patches is empty", "add a patch of 16 points"));
+        }
+        Ok(patches)
+    }
+
+    fn generated(&self, table: &Spanned<GenerateTable>) -> Result<Vec<BezierPatch>> {
+        let GenerateTable { kind, count, seed } = *table.get_ref();
+        if count == 0 || count.saturating_mul(kind.patches_each()) > MAX_GENERATED {
+            let problem = format!("count = {count} makes no patches, or more than {MAX_GENERATED}");
+            return Err(self.wrong(table, problem, "choose another count"));
+        }
+        Ok(generate::generate(kind, count, seed))
+    }
+
+    fn transform(&self, object: &ObjectTable) -> Result<DAffine3> {
+        let scale = match object.scale.as_ref().map(|scale| (scale, scale.get_ref())) {
+            None => DVec3::ONE,
+            Some((_, &ScaleValue::Uniform(factor))) => DVec3::splat(factor),
+            Some((_, &ScaleValue::PerAxis(factors))) => DVec3::from(factors),
+        };
+        if let Some(value) = &object.scale
+            && !(scale.is_finite() && scale.abs().max_element() <= 1.0e12)
+        {
+            return Err(self.wrong(value, "the scale is not finite or beyond 1e12", "use a smaller number"));
+        }
+        let angles = object.rotate.as_ref().map_or(Ok(DVec3::ZERO), |rotate| self.vector(rotate))?;
+        let translation = object.translate.as_ref().map_or(Ok(DVec3::ZERO), |t| self.vector(t))?;
+        Ok(DAffine3::from_mat3_translation(rotation(angles) * DMat3::from_diagonal(scale), translation))
+    }
+
+    fn material(&self, object: &ObjectTable) -> Result<Material> {
+        let specular = object.specular.as_ref().map_or(Ok(0.0), |s| self.number(s, "specular", 0.0, 1.0e3))?;
+        let shininess = object.shininess.as_ref().map_or(32, |shininess| *shininess.get_ref());
+        if let Some(value) = &object.shininess
+            && !(shininess.is_power_of_two() && shininess <= 1024)
+        {
+            let problem = format!("shininess is {shininess}");
+            return Err(self.wrong(value, problem, "choose a power of two from 1 to 1024"));
+        }
+        let colour = self.colour(object.colour.as_ref(), Vec3::splat(0.6))?;
+        Ok(Material { colour, specular: specular as f32, gloss: shininess.trailing_zeros() })
+    }
+}
+
+/// Linear RGB of `#rrggbb`.
+fn srgb(text: &str) -> Option<DVec3> {
+    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && digits.is_ascii())?;
+    let channel = |at: usize| {
+        let value = u8::from_str_radix(&digits[at..at + 2], 16).ok()?;
+        Some(linear_from_srgb(f64::from(value) / 255.0))
+    };
+    Some(DVec3::new(channel(0)?, channel(2)?, channel(4)?))
+}
+
+/// Turns by the given degrees about x, then y, then z.
+fn rotation(degrees: DVec3) -> DMat3 {
+    let turn = |axis: DVec3, degrees: f64| {
+        let (sine, cosine) = libm::sincos(degrees.to_radians());
+        let column = |v: DVec3| v * cosine + axis.cross(v) * sine + axis * axis.dot(v) * (1.0 - cosine);
+        DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+    };
+    turn(DVec3::Z, degrees.z) * turn(DVec3::Y, degrees.y) * turn(DVec3::X, degrees.x)
+}

@@ -1,0 +1,139 @@
+//! Statistics of one rendering as JSON that other programs can rely on.
+//!
+//! Fields are only ever added under the same `version`.
+
+use micropoly_core::memory::Sizes;
+use serde::Serialize;
+
+use crate::render::{Batch, RenderOptions, Rendering};
+use crate::timed::Seconds;
+
+/// The value of [`Stats::schema`].
+pub const SCHEMA: &str = "micropoly-stats";
+/// The value of [`Stats::version`].
+pub const VERSION: u32 = 1;
+
+/// What one rendering took.
+#[derive(Clone, Debug, Serialize)]
+pub struct Stats {
+    /// Always [`SCHEMA`].
+    pub schema: &'static str,
+    /// Always [`VERSION`].
+    pub version: u32,
+    /// Version of the program.
+    pub program: &'static str,
+    /// The scene file.
+    pub scene: String,
+    /// Which backend rendered.
+    pub backend: String,
+    /// Which device.
+    pub device: String,
+    /// With which options.
+    pub options: Options,
+    /// Patches of the scene.
+    pub patches: u64,
+    /// Surfaces, by what became of them.
+    pub surfaces: Surfaces,
+    /// Micropolygons of all drawn surfaces.
+    pub micropolygons: u64,
+    /// Bytes that the device held.
+    pub bytes_allocated: u64,
+    /// Hash of the pixels before encoding.
+    pub image_hash: String,
+    /// Wall time by stage, in seconds.
+    pub seconds: Seconds,
+}
+
+/// Counts of surfaces.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Surfaces {
+    /// Surfaces that were bounded.
+    pub processed: u64,
+    /// Surfaces that were diced.
+    pub drawn: u64,
+    /// Surfaces found invisible.
+    pub culled: u64,
+    /// Drawn surfaces that could not be split as far as the bound asks.
+    pub depth_limited: u64,
+    /// Largest number of surfaces that lay on the stack.
+    pub max_stack: u64,
+    /// The proven maximum of it.
+    pub stack_bound: u64,
+}
+
+/// Options, as they took effect.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Options {
+    /// Image width in pixels.
+    pub width: u32,
+    /// Image height in pixels.
+    pub height: u32,
+    /// Largest extent of a drawn surface, pixels.
+    pub bound: f32,
+    /// Micropolygons a side of a drawn surface.
+    pub dice: u32,
+    /// Levels.
+    pub max_depth: u32,
+    /// Surfaces a batch.
+    pub batch: u32,
+    /// The memory budget in bytes, if one was given.
+    pub memory: Option<u64>,
+    /// Threads asked for; 0 = one a core.
+    pub threads: usize,
+    /// Were grids skipped that show only their back?
+    pub cull_backfaces: bool,
+}
+
+impl Stats {
+    /// Statistics of a rendering of `scene`; `seconds` may have more in it than the rendering knows.
+    #[must_use]
+    pub fn new(
+        scene: &str,
+        backend: &str,
+        options: &RenderOptions,
+        rendering: &Rendering,
+        seconds: Seconds,
+    ) -> Self {
+        let Rendering { image, counts, sizes, bytes_allocated, device, .. } = rendering;
+        Self {
+            schema: SCHEMA,
+            version: VERSION,
+            program: env!("CARGO_PKG_VERSION"),
+            scene: scene.to_owned(),
+            backend: backend.to_owned(),
+            device: device.clone(),
+            options: effective(options, sizes),
+            patches: u64::from(sizes.patches),
+            surfaces: Surfaces {
+                processed: counts.processed,
+                drawn: counts.drawn,
+                culled: counts.culled,
+                depth_limited: counts.depth_limited,
+                max_stack: counts.max_stack,
+                stack_bound: sizes.stack_entries(),
+            },
+            micropolygons: counts.micropolygons,
+            bytes_allocated: *bytes_allocated,
+            image_hash: image.hash(),
+            seconds,
+        }
+    }
+}
+
+fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
+    let frame = options.frame;
+    Options {
+        width: frame.width,
+        height: frame.height,
+        bound: frame.bound,
+        dice: frame.rate,
+        max_depth: frame.levels,
+        batch: sizes.batch,
+        memory: match options.batch {
+            Batch::Memory(bytes) => Some(bytes),
+            Batch::Surfaces(_) => None,
+        },
+        threads: options.threads,
+        cull_backfaces: frame.cull_backfaces,
+    }
+}
