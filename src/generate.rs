@@ -64,11 +64,7 @@ fn sphere(centre: Point, radius: f64) -> Vec<BezierPatch> {
         for quarter in quarters(QUARTER) {
             let points = std::array::from_fn(|k| {
                 let ((out, up), (x, y)) = (profile[k / 4], quarter[k % 4]);
-                [
-                    centre[0] + radius * out * x,
-                    centre[1] + radius * out * y,
-                    centre[2] + radius * up * pole,
-                ]
+                [centre[0] + radius * out * x, centre[1] + radius * out * y, centre[2] + radius * up * pole]
             });
             patches.push(patch(points));
         }

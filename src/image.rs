@@ -78,9 +78,13 @@ impl Encoder {
 
     /// Appends the pixels of `colours`.
     pub(crate) fn append(&self, colours: &[Colour], rgb: &mut Vec<u8>) {
-        rgb.extend(colours.iter().flat_map(|&Colour { rgba: [red, green, blue, coverage] }| {
-            if coverage > 0.0 { [red, green, blue].map(|value| self.encode(value)) } else { self.background }
-        }));
+        for &Colour { rgba: [red, green, blue, coverage] } in colours {
+            if coverage > 0.0 {
+                rgb.extend_from_slice(&[self.encode(red), self.encode(green), self.encode(blue)]);
+            } else {
+                rgb.extend_from_slice(&self.background);
+            }
+        }
     }
 }
 

@@ -167,14 +167,15 @@ fn check_options(options: &FrameOptions) -> Result<()> {
 /// Refuses what would overflow in the kernels: NaN, infinities, coordinates beyond 10¹².
 fn check_extent(placed: &Object, object: &SceneObject) -> Result<()> {
     let m = &placed.to_eye;
-    let furthest = object.patches.iter().flat_map(|patch| patch.points).fold(0.0_f64, |furthest, [x, y, z]| {
-        let reach = |r: usize| {
-            let parts = [m[r] * x, m[r + 1] * y, m[r + 2] * z, m[r + 3]];
-            parts.iter().map(|part| f64::from(part.abs())).sum::<f64>()
-        };
-        // `max` would pass over NaN.
-        [reach(0), reach(4), reach(8)].into_iter().fold(furthest, |a, b| if b <= a { a } else { b })
-    });
+    let furthest =
+        object.patches.iter().flat_map(|patch| patch.points).fold(0.0_f64, |furthest, [x, y, z]| {
+            let reach = |r: usize| {
+                let parts = [m[r] * x, m[r + 1] * y, m[r + 2] * z, m[r + 3]];
+                parts.iter().map(|part| f64::from(part.abs())).sum::<f64>()
+            };
+            // `max` would pass over NaN.
+            [reach(0), reach(4), reach(8)].into_iter().fold(furthest, |a, b| if b <= a { a } else { b })
+        });
     if furthest <= f64::from(MAX_COORDINATE) {
         return Ok(());
     }

@@ -114,7 +114,12 @@ fn parse(path: &Path, text: &str) -> Result<Scene> {
         objects.push(at.object(object)?);
     }
     if objects.is_empty() {
-        return Err(Error::format(path, 1, "the scene has no [[object]]", "add one with geometry = \"file.bpt\""));
+        return Err(Error::format(
+            path,
+            1,
+            "the scene has no [[object]]",
+            "add one with geometry = \"file.bpt\"",
+        ));
     }
     Ok(Scene {
         name: path.display().to_string(),
@@ -282,7 +287,8 @@ impl Place<'_> {
     }
 
     fn material(&self, object: &ObjectTable) -> Result<Material> {
-        let specular = object.specular.as_ref().map_or(Ok(0.0), |s| self.number(s, "specular", 0.0, 1.0e3))?;
+        let specular =
+            object.specular.as_ref().map_or(Ok(0.0), |s| self.number(s, "specular", 0.0, 1.0e3))?;
         let shininess = object.shininess.as_ref().map_or(32, |shininess| *shininess.get_ref());
         if let Some(value) = &object.shininess
             && !(shininess.is_power_of_two() && shininess <= 1024)

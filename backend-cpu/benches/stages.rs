@@ -1,1 +1,123 @@
-fn main(){}
+//! What each stage costs on one core: surfaces bounded, grid vertices diced and shaded, micropolygons
+//! sampled per second. The surfaces are those of a ball that fills most of the image.
+#![allow(unsafe_code, missing_docs)] // only what `multiversion` and criterion generate
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use glam::{DAffine3, DVec3, Vec3};
+use micropoly_core::abi::{
+    CULL, Colour, DRAW, DRAW_LIMITED, Draw, Frame, Object, Patch, SPLIT_U, Sample, Surface,
+};
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
+use micropoly_core::kernel::{
+    bound::bound, dice::Grid, dice::dice, sample::Band, sample::sample, shade::shade,
+};
+use micropoly_core::patch::Net;
+use multiversion::multiversion;
+
+struct Ball {
+    frame: Frame,
+    object: Object,
+    patches: Vec<Patch>,
+    bounded: Vec<Surface>,
+    draws: Vec<Draw>,
+}
+
+/// Eight octants of a ball, and all their surfaces at the default bound.
+fn ball() -> Ball {
+    let camera =
+        Camera::look_at(DVec3::new(1.0, -3.0, 1.5), DVec3::ZERO, DVec3::Z, 40.0, 0.1).expect("a view");
+    let lights = [Light::Directional { to_light: DVec3::new(-1.0, -1.0, 2.0), colour: Vec3::ONE }];
+    let frame = camera.frame(&FrameOptions::default(), Vec3::splat(0.1), &lights);
+    let material = Material { colour: Vec3::new(0.7, 0.3, 0.2), specular: 0.3, gloss: 5 };
+    let object = camera.object(DAffine3::IDENTITY, &material);
+    let patches: Vec<Patch> = (0..8).map(octant).collect();
+    let mut stack: Vec<Surface> = (0..8).map(Surface::root).collect();
+    let (mut bounded, mut draws) = (Vec::new(), Vec::new());
+    while let Some(surface) = stack.pop() {
+        bounded.push(surface);
+        let verdict = bound(&frame, &patches[surface.patch as usize], &object, surface);
+        match verdict.code {
+            CULL => {}
+            DRAW | DRAW_LIMITED => draws.push(Draw::new(surface, verdict)),
+            SPLIT_U => stack.extend(surface.halves_u()),
+            _ => stack.extend(surface.halves_v()),
+        }
+    }
+    Ball { frame, object, patches, bounded, draws }
+}
+
+fn octant(index: u32) -> Patch {
+    let arc = [(0.0, 1.0), (0.5523, 1.0), (1.0, 0.5523), (1.0, 0.0)];
+    let sign = |bit: u32| if index >> bit & 1 == 0 { 1.0 } else { -1.0 };
+    let mut patch = Patch::default();
+    for k in 0..16 {
+        let ((out, up), (x, y)) = (arc[k / 4], arc[k % 4]);
+        patch.x[k] = out * x * sign(0);
+        patch.y[k] = out * y * sign(1);
+        patch.z[k] = up * sign(2);
+    }
+    patch
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
+fn bound_all(ball: &Ball) -> u32 {
+    let verdict = |s: &Surface| bound(&ball.frame, &ball.patches[s.patch as usize], &ball.object, *s).code;
+    ball.bounded.iter().map(verdict).sum()
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
+fn dice_all(ball: &Ball, grids: &mut [Grid]) {
+    for (index, draw) in ball.draws.iter().enumerate() {
+        let net = Net::in_eye_space(&ball.patches[draw.patch as usize], &ball.object);
+        let count = grids.len();
+        dice(&net, &ball.frame, draw.surface(), &mut grids[index % count]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
+fn shade_all(ball: &Ball, grids: &mut [Grid]) {
+    for index in 0..ball.draws.len() {
+        let count = grids.len();
+        shade(&ball.frame, &ball.object, &mut grids[index % count]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
+fn sample_all(ball: &Ball, grids: &[Grid], band: &mut Band<'_>) {
+    for (draw, grid) in ball.draws.iter().zip(grids) {
+        sample(&ball.frame, *draw, grid, band);
+    }
+}
+
+fn stages(criterion: &mut Criterion) {
+    let ball = ball();
+    let vertices = ball.draws.len() as u64 * 81;
+    let mut group = criterion.benchmark_group("stages");
+
+    group.throughput(Throughput::Elements(ball.bounded.len() as u64));
+    group.bench_function("bound (surfaces)", |bencher| bencher.iter(|| bound_all(&ball)));
+
+    let mut hot = vec![Grid::default(); 2];
+    group.throughput(Throughput::Elements(vertices));
+    group.bench_function("dice (vertices)", |bencher| bencher.iter(|| dice_all(&ball, &mut hot)));
+    group.bench_function("shade (vertices)", |bencher| bencher.iter(|| shade_all(&ball, &mut hot)));
+
+    let mut grids = vec![Grid::default(); ball.draws.len()];
+    dice_all(&ball, &mut grids);
+    shade_all(&ball, &mut grids);
+    let (width, pixels) = (ball.frame.width, (ball.frame.width * ball.frame.height) as usize);
+    let (mut samples, mut colours) = (vec![Sample::default(); pixels], vec![Colour::default(); pixels]);
+    group.throughput(Throughput::Elements(ball.draws.len() as u64 * 64));
+    group.bench_function("sample (micropolygons)", |bencher| {
+        bencher.iter(|| {
+            samples.fill(Sample::default());
+            let (samples, colours) = (&mut samples[..], &mut colours[..]);
+            let mut band = Band { width, height: ball.frame.height, first_row: 0, samples, colours };
+            sample_all(&ball, &grids, &mut band);
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, stages);
+criterion_main!(benches);

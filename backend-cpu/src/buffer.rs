@@ -17,7 +17,7 @@ pub struct CpuBuffer {
     name: &'static str,
     layout: Layout,
     entries: usize,
-    blocks: RefCell<Vec<Block>>,
+    blocks: RefCell<Box<[Block]>>,
     bytes: u64,
     allocated: Arc<AtomicU64>,
 }
@@ -32,15 +32,16 @@ impl CpuBuffer {
     ) -> Result<Self, CpuError> {
         let bytes = entries.saturating_mul(layout.size as u64);
         let out_of_memory = || CpuError::OutOfMemory { name, bytes };
-        let blocks = usize::try_from(bytes.div_ceil(size_of::<Block>() as u64)).map_err(|_| out_of_memory())?;
-        // Asking first turns what would be an abort into an error; zeroed memory is only touched when used.
-        Vec::<Block>::new().try_reserve_exact(blocks).map_err(|_| out_of_memory())?;
+        let blocks =
+            usize::try_from(bytes.div_ceil(size_of::<Block>() as u64)).map_err(|_| out_of_memory())?;
+        // Zeroed by the operating system, page by page, when first used.
+        let blocks = bytemuck::allocation::try_zeroed_slice_box(blocks).map_err(|()| out_of_memory())?;
         allocated.fetch_add(bytes, Ordering::Relaxed);
         Ok(Self {
             name,
             layout,
             entries: entries as usize,
-            blocks: RefCell::new(vec![[0; 4]; blocks]),
+            blocks: RefCell::new(blocks),
             bytes,
             allocated: Arc::clone(allocated),
         })
@@ -76,7 +77,9 @@ impl CpuBuffer {
         self.check::<T>(0)?;
         let blocks = self.blocks.try_borrow_mut().map_err(|_| CpuError::InUse { buffer: self.name })?;
         let bytes = self.entries * size_of::<T>();
-        Ok(RefMut::map(blocks, |b| bytemuck::cast_slice_mut(&mut bytemuck::cast_slice_mut::<_, u8>(b)[..bytes])))
+        Ok(RefMut::map(blocks, |b| {
+            bytemuck::cast_slice_mut(&mut bytemuck::cast_slice_mut::<_, u8>(b)[..bytes])
+        }))
     }
 
     /// Copies `data` to the start.

@@ -49,8 +49,12 @@ impl fmt::Display for CpuError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Plan(error) => error.fmt(f),
-            Self::OutOfMemory { name, bytes } => write!(f, "no memory for the {name} buffer of {bytes} bytes"),
-            Self::Mismatch { buffer, wanted } => write!(f, "buffer {buffer} does not hold that many {wanted}"),
+            Self::OutOfMemory { name, bytes } => {
+                write!(f, "no memory for the {name} buffer of {bytes} bytes")
+            }
+            Self::Mismatch { buffer, wanted } => {
+                write!(f, "buffer {buffer} does not hold that many {wanted}")
+            }
             Self::InUse { buffer } => write!(f, "buffer {buffer} is passed twice to a stage that writes it"),
             Self::Bindings { stage } => write!(f, "stage {stage} was given the wrong number of buffers"),
             Self::Threads(why) => write!(f, "cannot start threads: {why}"),

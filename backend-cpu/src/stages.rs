@@ -142,7 +142,9 @@ pub(crate) fn draw(
         samples.par_chunks_mut(chunk).zip(colours.par_chunks_mut(chunk)).enumerate().for_each(
             |(index, (samples, colours))| {
                 let first_row = (index * rows) as u32;
-                draw_band(scene, &mut Band { width: frame.width, first_row, samples, colours });
+                let height = (samples.len() / frame.width as usize) as u32;
+                let mut band = Band { width: frame.width, height, first_row, samples, colours };
+                draw_band(scene, &mut Grid::default(), &mut band);
             },
         );
     });
@@ -158,22 +160,12 @@ struct Scene<'a> {
     draws: &'a [Draw],
 }
 
+/// Dices, shades and samples all surfaces that can touch the band; the grid never leaves the cache.
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi1+bmi2+lzcnt+popcnt",
     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
 ))]
-fn draw_band(scene: Scene<'_>, band: &mut Band<'_>) {
-    match scene.frame.rate {
-        ..8 => draw_grids::<8>(scene, band),
-        8..16 => draw_grids::<16>(scene, band),
-        _ => draw_grids::<32>(scene, band),
-    }
-}
-
-/// Dices, shades and samples all surfaces that can touch the band; the grid never leaves the cache.
-#[inline(always)]
-fn draw_grids<const ROW: usize>(scene: Scene<'_>, band: &mut Band<'_>) {
-    let mut grid = Grid::<ROW>::default();
+fn draw_band(scene: Scene<'_>, grid: &mut Grid, band: &mut Band<'_>) {
     let (first_row, end_row) = band.rows();
     for draw in scene.draws {
         let (top, bottom) = draw.row_range();
@@ -183,8 +175,8 @@ fn draw_grids<const ROW: usize>(scene: Scene<'_>, band: &mut Band<'_>) {
         let patch = &scene.patches[draw.patch as usize];
         let object = &scene.objects[patch.object as usize];
         let net = Net::in_eye_space(patch, object);
-        dice(&net, scene.frame, draw.surface(), &mut grid);
-        shade(scene.frame, object, &mut grid);
-        sample(scene.frame, *draw, &grid, band);
+        dice(&net, scene.frame, draw.surface(), grid);
+        shade(scene.frame, object, grid);
+        sample(scene.frame, *draw, grid, band);
     }
 }

@@ -21,8 +21,9 @@ pub const SUBPIXEL_BITS: u32 = 8;
 pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
 /// Largest width and height of an image in pixels.
 pub const MAX_RESOLUTION: u32 = 16384;
-/// Vertices farther than this from the image centre (pixels) are clipped before they are snapped.
-pub const GUARD_BAND: f32 = 32768.0;
+/// Vertices farther than this from the optical axis (pixels) are clipped before they are snapped; beyond
+/// half of [`MAX_RESOLUTION`], and small enough for [`crate::num::round`].
+pub const GUARD_BAND: f32 = 16000.0;
 /// Largest number of lights in a frame.
 pub const MAX_LIGHTS: usize = 8;
 /// Largest magnitude of an eye-space coordinate; scenes beyond it are refused on the host.

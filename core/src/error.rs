@@ -39,7 +39,10 @@ impl fmt::Display for PlanError {
                 write!(f, "{option} is {value}, but must be {least} to {most}")
             }
             Self::Budget { have, needed } => {
-                write!(f, "a memory budget of {have} bytes is too small; this frame needs at least {needed} bytes")
+                write!(
+                    f,
+                    "a memory budget of {have} bytes is too small; this frame needs at least {needed} bytes"
+                )
             }
             Self::Overflow { buffer, excess } => {
                 write!(f, "the {buffer} buffer is {excess} entries too small")

@@ -5,7 +5,8 @@
 //! always takes the deepest surfaces, so each of the `k - 1` levels can leave at most one batch behind.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Limits, MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface, Verdict,
+    Colour, Control, Draw, Frame, Limits, MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface,
+    Verdict,
 };
 use crate::error::PlanError;
 

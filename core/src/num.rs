@@ -93,6 +93,15 @@ pub const fn sqrt(x: f32) -> f32 {
     mul(x, rsqrt(x))
 }
 
+/// The nearest integer, ties to even, for `|x|` < 2²².
+///
+/// Adding 1.5 · 2²³ leaves the integer in the low bits of the mantissa: no conversion is needed.
+#[inline(always)]
+#[must_use]
+pub const fn round(x: f32) -> i32 {
+    add(x, 12_582_912.0).to_bits() as i32 - 0x4b40_0000
+}
+
 /// Largest integer not above `x`, for `|x|` < 2³¹.
 #[inline(always)]
 #[must_use]
@@ -139,6 +148,13 @@ pub const fn cross3(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
         sub(mul(a[2], b[0]), mul(a[0], b[2])),
         sub(mul(a[0], b[1]), mul(a[1], b[0])),
     ]
+}
+
+/// `a + b`, component by component.
+#[inline(always)]
+#[must_use]
+pub const fn add3(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [add(a[0], b[0]), add(a[1], b[1]), add(a[2], b[2])]
 }
 
 /// `a` with every component multiplied by `s`.

@@ -102,8 +102,7 @@ impl FramePlan {
             stack_room: sizes.stack_entries() as u32,
             draw_room: sizes.draw_entries() as u32,
         };
-        let mut reserve =
-            |name, layout: Layout, entries: u64| device.allocate(name, layout, entries);
+        let mut reserve = |name, layout: Layout, entries: u64| device.allocate(name, layout, entries);
         let batch = u64::from(sizes.batch);
         let buffers = Buffers {
             frame: reserve("frame", Frame::LAYOUT, 1)?,

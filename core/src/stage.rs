@@ -91,46 +91,54 @@ impl Stage {
                 const { &[read::<Limits>("limits"), write::<Surface>("stack"), write::<Control>("control")] }
             }
             Self::Take => const { &[read::<Limits>("limits"), write::<Control>("control")] },
-            Self::Bound => const {
-                &[
-                    read::<Frame>("frame"),
-                    read::<Object>("objects"),
-                    read::<Patch>("patches"),
-                    read::<Control>("control"),
-                    read::<Surface>("stack"),
-                    write::<Surface>("batch"),
-                    write::<Verdict>("verdicts"),
-                ]
-            },
-            Self::Scan => const {
-                &[
-                    read::<Limits>("limits"),
-                    read::<Verdict>("verdicts"),
-                    write::<Slot>("slots"),
-                    write::<Control>("control"),
-                ]
-            },
-            Self::Split => const {
-                &[
-                    read::<Control>("control"),
-                    read::<Surface>("batch"),
-                    read::<Verdict>("verdicts"),
-                    read::<Slot>("slots"),
-                    write::<Surface>("stack"),
-                    write::<Draw>("draws"),
-                ]
-            },
-            Self::Draw => const {
-                &[
-                    read::<Frame>("frame"),
-                    read::<Object>("objects"),
-                    read::<Patch>("patches"),
-                    read::<Control>("control"),
-                    read::<Draw>("draws"),
-                    write::<Sample>("samples"),
-                    write::<Colour>("colours"),
-                ]
-            },
+            Self::Bound => {
+                const {
+                    &[
+                        read::<Frame>("frame"),
+                        read::<Object>("objects"),
+                        read::<Patch>("patches"),
+                        read::<Control>("control"),
+                        read::<Surface>("stack"),
+                        write::<Surface>("batch"),
+                        write::<Verdict>("verdicts"),
+                    ]
+                }
+            }
+            Self::Scan => {
+                const {
+                    &[
+                        read::<Limits>("limits"),
+                        read::<Verdict>("verdicts"),
+                        write::<Slot>("slots"),
+                        write::<Control>("control"),
+                    ]
+                }
+            }
+            Self::Split => {
+                const {
+                    &[
+                        read::<Control>("control"),
+                        read::<Surface>("batch"),
+                        read::<Verdict>("verdicts"),
+                        read::<Slot>("slots"),
+                        write::<Surface>("stack"),
+                        write::<Draw>("draws"),
+                    ]
+                }
+            }
+            Self::Draw => {
+                const {
+                    &[
+                        read::<Frame>("frame"),
+                        read::<Object>("objects"),
+                        read::<Patch>("patches"),
+                        read::<Control>("control"),
+                        read::<Draw>("draws"),
+                        write::<Sample>("samples"),
+                        write::<Colour>("colours"),
+                    ]
+                }
+            }
             Self::Flush => const { &[write::<Control>("control")] },
         }
     }

@@ -129,7 +129,11 @@ pub(crate) enum BackendChoice {
 fn png_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-    if is_png { Ok(path) } else { Err("only PNG images can be written: choose a name that ends in .png".into()) }
+    if is_png {
+        Ok(path)
+    } else {
+        Err("only PNG images can be written: choose a name that ends in .png".into())
+    }
 }
 
 fn resolution(text: &str) -> Result<(u32, u32), String> {

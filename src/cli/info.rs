@@ -16,7 +16,10 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<()> {
     println!("scene        {}", scene.name);
     println!("objects      {}", scene.objects.len());
     println!("patches      {} bicubic Bézier", scene.patch_count());
-    println!("bounds       {:.4} {:.4} {:.4}  to  {:.4} {:.4} {:.4}", low.x, low.y, low.z, high.x, high.y, high.z);
+    println!(
+        "bounds       {:.4} {:.4} {:.4}  to  {:.4} {:.4} {:.4}",
+        low.x, low.y, low.z, high.x, high.y, high.z
+    );
     println!("lights       {} directional, {point_lights} point", scene.lights.len() - point_lights);
     println!(
         "camera       at {:.4} {:.4} {:.4}, fov {}°, near {}",

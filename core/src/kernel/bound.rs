@@ -28,10 +28,13 @@ pub fn bound(frame: &Frame, patch: &Patch, object: &Object, surface: Surface) ->
     let part = whole.restricted(surface);
     let nearest = neg(fold(&part.z, max));
     let farthest = neg(fold(&part.z, min));
-    if add(farthest, slack) < frame.near || beside_the_view(frame, &part, slack) {
+    if add(farthest, slack) < frame.near {
         return verdict(CULL, PixelBox::EMPTY);
     }
     if nearest < frame.near {
+        if beside_the_view(frame, &part, slack) {
+            return verdict(CULL, PixelBox::EMPTY);
+        }
         let code = refine(frame, surface, depth_spans(&part), None);
         return verdict(code, PixelBox::whole(frame));
     }
@@ -51,11 +54,7 @@ pub fn bound(frame: &Frame, patch: &Patch, object: &Object, surface: Surface) ->
 #[inline(always)]
 fn verdict(code: u32, pixels: PixelBox) -> Verdict {
     let [left, right, top, bottom] = pixels.0;
-    Verdict {
-        code,
-        columns: left as u32 | (right as u32) << 16,
-        rows: top as u32 | (bottom as u32) << 16,
-    }
+    Verdict { code, columns: left as u32 | (right as u32) << 16, rows: top as u32 | (bottom as u32) << 16 }
 }
 
 /// Splits along the direction that wants it more; at the deepest level, or where the range cannot be
@@ -68,7 +67,13 @@ fn refine(frame: &Frame, surface: Surface, (u, v): (f32, f32), limit: Option<f32
     if surface.level() + 1 >= frame.levels {
         DRAW_LIMITED
     } else if u > v {
-        if open_u { SPLIT_U } else if open_v && too_long(v) { SPLIT_V } else { DRAW_LIMITED }
+        if open_u {
+            SPLIT_U
+        } else if open_v && too_long(v) {
+            SPLIT_V
+        } else {
+            DRAW_LIMITED
+        }
     } else if open_v {
         SPLIT_V
     } else if open_u && too_long(u) {
@@ -81,19 +86,22 @@ fn refine(frame: &Frame, surface: Surface, (u, v): (f32, f32), limit: Option<f32
 /// Does the whole hull lie on the outer side of one side plane of the view? Holds behind the eye too.
 #[inline(always)]
 fn beside_the_view(frame: &Frame, part: &Net, slack: f32) -> bool {
-    let beyond = |c: &[f32; 16], half: f32| {
-        // A point error of `slack` along each axis moves the plane distance by at most this much.
-        let tolerance = mul(slack, add(frame.focal, half));
-        let (mut low, mut high) = ([0.0; 16], [0.0; 16]);
-        for l in 0..16 {
-            let offset = mul(c[l], frame.focal);
-            let edge = mul(neg(part.z[l]), half);
-            low[l] = add(edge, offset);
-            high[l] = sub(edge, offset);
-        }
-        add(fold(&low, max), tolerance) < 0.0 || add(fold(&high, max), tolerance) < 0.0
-    };
-    beyond(&part.x, frame.centre_x) || beyond(&part.y, frame.centre_y)
+    beyond(frame, part, &part.x, frame.centre_x, slack) || beyond(frame, part, &part.y, frame.centre_y, slack)
+}
+
+/// Does the hull lie beyond one of the two planes that cut the coordinate `c` at `half` pixels?
+#[inline(always)]
+fn beyond(frame: &Frame, part: &Net, c: &[f32; 16], half: f32, slack: f32) -> bool {
+    // A point error of `slack` along each axis moves the plane distance by at most this much.
+    let tolerance = mul(slack, add(frame.focal, half));
+    let (mut low, mut high) = ([0.0; 16], [0.0; 16]);
+    for l in 0..16 {
+        let offset = mul(c[l], frame.focal);
+        let edge = mul(neg(part.z[l]), half);
+        low[l] = add(edge, offset);
+        high[l] = sub(edge, offset);
+    }
+    add(fold(&low, max), tolerance) < 0.0 || add(fold(&high, max), tolerance) < 0.0
 }
 
 /// How much the distance to the eye plane varies along u and along v: splitting the direction in which it
@@ -103,13 +111,15 @@ fn depth_spans(part: &Net) -> (f32, f32) {
     let z = &part.z;
     let (mut along_u, mut along_v) = (0.0, 0.0);
     for l in 0..4 {
-        let span = |a: f32, b: f32, c: f32, d: f32| {
-            sub(max(max(a, b), max(c, d)), min(min(a, b), min(c, d)))
-        };
-        along_u = max(along_u, span(z[l], z[4 + l], z[8 + l], z[12 + l]));
-        along_v = max(along_v, span(z[4 * l], z[4 * l + 1], z[4 * l + 2], z[4 * l + 3]));
+        along_u = max(along_u, span([z[l], z[4 + l], z[8 + l], z[12 + l]]));
+        along_v = max(along_v, span([z[4 * l], z[4 * l + 1], z[4 * l + 2], z[4 * l + 3]]));
     }
     (along_u, along_v)
+}
+
+#[inline(always)]
+fn span([a, b, c, d]: [f32; 4]) -> f32 {
+    sub(max(max(a, b), max(c, d)), min(min(a, b), min(c, d)))
 }
 
 /// Pixel offsets of the control points from the optical axis.
@@ -137,8 +147,11 @@ fn length_u(x: &[f32; 16], y: &[f32; 16]) -> f32 {
     for (l, length) in lengths.iter_mut().enumerate() {
         *length = segment(x, y, l, l + 4);
     }
-    let polygon = |j: usize| add(add(lengths[j], lengths[4 + j]), lengths[8 + j]);
-    max(max(polygon(0), polygon(1)), max(polygon(2), polygon(3)))
+    let mut polygons = [0.0; 4];
+    for (j, polygon) in polygons.iter_mut().enumerate() {
+        *polygon = add(add(lengths[j], lengths[4 + j]), lengths[8 + j]);
+    }
+    max(max(polygons[0], polygons[1]), max(polygons[2], polygons[3]))
 }
 
 /// Length in pixels of the longest control polygon along v.
@@ -148,8 +161,11 @@ fn length_v(x: &[f32; 16], y: &[f32; 16]) -> f32 {
     for (l, length) in lengths.iter_mut().enumerate() {
         *length = segment(x, y, l, l + 1); // every fourth joins two rows and is not used
     }
-    let polygon = |i: usize| add(add(lengths[4 * i], lengths[4 * i + 1]), lengths[4 * i + 2]);
-    max(max(polygon(0), polygon(1)), max(polygon(2), polygon(3)))
+    let mut polygons = [0.0; 4];
+    for (i, polygon) in polygons.iter_mut().enumerate() {
+        *polygon = add(add(lengths[4 * i], lengths[4 * i + 1]), lengths[4 * i + 2]);
+    }
+    max(max(polygons[0], polygons[1]), max(polygons[2], polygons[3]))
 }
 
 /// Left, right, top and bottom in pixels; right and bottom are one past the last.
@@ -164,14 +180,8 @@ impl PixelBox {
 
     #[inline(always)]
     fn around(frame: &Frame, x: &[f32; 16], y: &[f32; 16], margin: f32) -> Self {
-        let side = |offsets: &[f32; 16], centre: f32, size: u32| {
-            let size = float(size as i32);
-            let low = sub(add(fold(offsets, min), centre), margin);
-            let high = add(add(fold(offsets, max), centre), margin);
-            (floor(clamp(low, 0.0, size)), floor(clamp(add(high, 1.0), 0.0, size)))
-        };
-        let (left, right) = side(x, frame.centre_x, frame.width);
-        let (top, bottom) = side(y, frame.centre_y, frame.height);
+        let (left, right) = pixel_range(x, frame.centre_x, frame.width, margin);
+        let (top, bottom) = pixel_range(y, frame.centre_y, frame.height, margin);
         Self([left, right, top, bottom])
     }
 
@@ -179,4 +189,13 @@ impl PixelBox {
     fn is_empty(&self) -> bool {
         self.0[0] >= self.0[1] || self.0[2] >= self.0[3]
     }
+}
+
+/// First pixel that the offsets, widened by `margin`, can touch, and one past the last; within the image.
+#[inline(always)]
+fn pixel_range(offsets: &[f32; 16], centre: f32, size: u32, margin: f32) -> (i32, i32) {
+    let size = float(size as i32);
+    let low = sub(add(fold(offsets, min), centre), margin);
+    let high = add(add(fold(offsets, max), centre), add(margin, 1.0));
+    (floor(clamp(low, 0.0, size)), floor(clamp(high, 0.0, size)))
 }

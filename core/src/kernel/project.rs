@@ -1,10 +1,7 @@
 //! Perspective projection and the snap to fixed point: from here on, coverage is integers.
 
-use crate::abi::{Frame, GUARD_BAND, MAX_RESOLUTION, SUBPIXELS};
-use crate::num::{abs, add, clamp, floor, max, mul, neg, recip};
-
-/// Largest magnitude of a pixel coordinate that is snapped as it is.
-const SNAP_LIMIT: f32 = GUARD_BAND + MAX_RESOLUTION as f32;
+use crate::abi::{Frame, GUARD_BAND, SUBPIXELS};
+use crate::num::{abs, clamp, max, mul, neg, recip, round};
 
 /// A vertex on screen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,7 +30,7 @@ pub fn perspective(frame: &Frame, point: [f32; 3]) -> (f32, f32, f32) {
 #[must_use]
 pub fn project(frame: &Frame, point: [f32; 3]) -> Vertex {
     let (x, y, w) = perspective(frame, point);
-    let visible = neg(point[2]) >= frame.near && abs(x) <= GUARD_BAND && abs(y) <= GUARD_BAND;
+    let visible = (neg(point[2]) >= frame.near) & (abs(x) <= GUARD_BAND) & (abs(y) <= GUARD_BAND);
     Vertex { w: if visible { w } else { 0.0 }, ..snapped(frame, x, y, w) }
 }
 
@@ -45,14 +42,16 @@ pub fn project_clipped(frame: &Frame, point: [f32; 3]) -> Vertex {
     snapped(frame, x, y, w)
 }
 
+/// The optical axis runs through the middle of the image: a whole number of half pixels.
 #[inline(always)]
 fn snapped(frame: &Frame, x: f32, y: f32, w: f32) -> Vertex {
-    Vertex { x: snap(add(x, frame.centre_x)), y: snap(add(y, frame.centre_y)), w }
+    let half_pixel = SUBPIXELS / 2;
+    Vertex { x: snap(x) + frame.width as i32 * half_pixel, y: snap(y) + frame.height as i32 * half_pixel, w }
 }
 
 /// Pixels to the nearest 1/256 pixel; the rounding boundaries lie away from zero.
 #[inline(always)]
 #[must_use]
 pub fn snap(pixels: f32) -> i32 {
-    floor(add(mul(clamp(pixels, neg(SNAP_LIMIT), SNAP_LIMIT), SUBPIXELS as f32), 0.5))
+    round(mul(clamp(pixels, neg(GUARD_BAND), GUARD_BAND), SUBPIXELS as f32))
 }

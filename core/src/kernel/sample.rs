@@ -5,9 +5,11 @@
 
 use crate::abi::{Colour, Draw, FLAG_CULL_BACKFACES, Frame, Sample};
 use crate::kernel::clip::clip;
-use crate::kernel::dice::Grid;
-use crate::kernel::project::{Vertex, project_clipped};
-use crate::kernel::triangle::{Triangle, pixels_between, signed_area};
+use crate::kernel::dice::{Grid, LANES};
+use crate::kernel::project::{Vertex, project, project_clipped};
+use crate::kernel::quads::{FOUND, NOTHING, Quads};
+use crate::kernel::seam::Seam;
+use crate::kernel::triangle::{Corner, depth, edge, owns, pixels_between, sample_triangle, signed_area};
 use crate::num::{add, mul};
 
 /// Rows `first_row` … of the image, `width` samples each.
@@ -15,6 +17,8 @@ use crate::num::{add, mul};
 pub struct Band<'a> {
     /// Samples a row.
     pub width: u32,
+    /// Rows of the band.
+    pub height: u32,
     /// Row of the image that the band starts with.
     pub first_row: u32,
     /// Nearest micropolygon a sample, row after row.
@@ -28,7 +32,30 @@ impl Band<'_> {
     #[inline(always)]
     #[must_use]
     pub fn rows(&self) -> (u32, u32) {
-        (self.first_row, self.first_row + (self.samples.len() / self.width as usize) as u32)
+        (self.first_row, self.first_row + self.height)
+    }
+
+    #[inline(always)]
+    fn contains(&self, column: i32, row: i32) -> bool {
+        let row = row.wrapping_sub(self.first_row as i32) as u32;
+        (column as u32) < self.width && row < self.height
+    }
+
+    /// The part of a box of pixels that lies inside the band.
+    #[inline(always)]
+    fn inside(&self, [left, right, top, bottom]: [i32; 4]) -> [i32; 4] {
+        let (first_row, end_row) = self.rows();
+        [left.max(0), right.min(self.width as i32), top.max(first_row as i32), bottom.min(end_row as i32)]
+    }
+
+    /// Keeps a new sample if it is to be shown rather than the old one.
+    #[inline(always)]
+    fn put(&mut self, column: i32, row: i32, new: Sample, colour: Colour) {
+        let place = (row as u32 - self.first_row) as usize * self.width as usize + column as usize;
+        if nearer(new, self.samples[place]) {
+            self.samples[place] = new;
+            self.colours[place] = colour;
+        }
     }
 }
 
@@ -44,184 +71,209 @@ pub fn nearer(new: Sample, old: Sample) -> bool {
 
 /// Samples all micropolygons of a shaded grid inside the band.
 #[inline(always)]
-pub fn sample<const ROW: usize>(frame: &Frame, draw: Draw, grid: &Grid<ROW>, band: &mut Band<'_>) {
-    if frame.flags & FLAG_CULL_BACKFACES != 0 && faces_away(frame, grid) {
+pub fn sample(frame: &Frame, draw: Draw, grid: &Grid, band: &mut Band<'_>) {
+    if frame.flags & FLAG_CULL_BACKFACES != 0 && faces_away(grid) {
         return;
     }
-    let surface = draw.surface();
-    let (step_u, step_v) = (surface.u_size() / frame.rate, surface.v_size() / frame.rate);
+    let sampler = Sampler { frame, draw, grid };
     for row in 0..frame.rate as usize {
-        let touched = touched_pixels(grid, row);
-        for column in 0..frame.rate as usize {
-            if !touched.reaches(column) {
-                continue;
-            }
-            let micropolygon = Micropolygon {
-                grid,
-                row,
-                column,
-                identity: Sample {
-                    depth: 0,
-                    patch: draw.patch,
-                    u: draw.u + column as u32 * step_u,
-                    v: draw.v + row as u32 * step_v,
-                },
-            };
-            if micropolygon.is_snapped() {
-                micropolygon.sample_snapped(touched.pixels(column), band);
-            } else {
-                micropolygon.sample_clipped(frame, band);
-            }
+        for block in (0..frame.rate as usize).step_by(LANES) {
+            sampler.block(row, block, band);
         }
     }
+    sampler.seams(band);
 }
 
-/// Pixels that each micropolygon of a row may own, by its bounding box.
-struct Touched<const ROW: usize> {
-    left: [i32; ROW],
-    right: [i32; ROW],
-    top: [i32; ROW],
-    bottom: [i32; ROW],
+/// A row and column of a grid: of a vertex, or of the micropolygon that starts there.
+type Place = (usize, usize);
+
+/// What is being sampled.
+struct Sampler<'a> {
+    frame: &'a Frame,
+    draw: Draw,
+    grid: &'a Grid,
 }
 
-impl<const ROW: usize> Touched<ROW> {
+impl Sampler<'_> {
     #[inline(always)]
-    fn reaches(&self, column: usize) -> bool {
-        self.left[column] < self.right[column] && self.top[column] < self.bottom[column]
-    }
-
-    #[inline(always)]
-    fn pixels(&self, column: usize) -> [i32; 4] {
-        [self.left[column], self.right[column], self.top[column], self.bottom[column]]
-    }
-}
-
-#[inline(always)]
-fn touched_pixels<const ROW: usize>(grid: &Grid<ROW>, row: usize) -> Touched<ROW> {
-    let mut out = Touched { left: [0; ROW], right: [0; ROW], top: [0; ROW], bottom: [0; ROW] };
-    let corners = |at: &[[i32; ROW]], l: usize| [at[row][l], at[row][l + 1], at[row + 1][l], at[row + 1][l + 1]];
-    for l in 0..ROW - 1 {
-        let (low, high) = range(corners(&grid.x, l));
-        (out.left[l], out.right[l]) = pixels_between(low, high);
-        let (low, high) = range(corners(&grid.y, l));
-        (out.top[l], out.bottom[l]) = pixels_between(low, high);
-        let whole = (grid.w[row][l] > 0.0)
-            & (grid.w[row][l + 1] > 0.0)
-            & (grid.w[row + 1][l] > 0.0)
-            & (grid.w[row + 1][l + 1] > 0.0);
-        // What must be clipped first may be anywhere.
-        out.left[l] = if whole { out.left[l] } else { 0 };
-        out.right[l] = if whole { out.right[l] } else { 1 };
-        out.top[l] = if whole { out.top[l] } else { 0 };
-        out.bottom[l] = if whole { out.bottom[l] } else { 1 };
-    }
-    out
-}
-
-#[inline(always)]
-fn range([a, b, c, d]: [i32; 4]) -> (i32, i32) {
-    (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
-}
-
-/// One quad of a grid.
-struct Micropolygon<'a, const ROW: usize> {
-    grid: &'a Grid<ROW>,
-    row: usize,
-    column: usize,
-    identity: Sample,
-}
-
-impl<const ROW: usize> Micropolygon<'_, ROW> {
-    #[inline(always)]
-    fn vertex(&self, down: usize, right: usize) -> Vertex {
-        let (r, c) = (self.row + down, self.column + right);
-        Vertex { x: self.grid.x[r][c], y: self.grid.y[r][c], w: self.grid.w[r][c] }
-    }
-
-    fn position(&self, down: usize, right: usize) -> [f32; 3] {
-        [0, 1, 2].map(|k| self.grid.position[self.row + down][k][self.column + right])
+    fn index(&self, (row, column): Place) -> usize {
+        row * self.grid.stride + column
     }
 
     #[inline(always)]
-    fn is_snapped(&self) -> bool {
-        [(0, 0), (0, 1), (1, 0), (1, 1)].iter().all(|&(d, r)| self.vertex(d, r).w > 0.0)
+    fn vertex(&self, place: Place) -> Vertex {
+        let at = self.index(place);
+        Vertex { x: self.grid.x[at], y: self.grid.y[at], w: self.grid.w[at] }
     }
 
-    /// Mean colour of the four vertices.
+    /// Identity of the micropolygon in this row and column, at this depth.
     #[inline(always)]
-    fn colour(&self) -> Colour {
-        let (r, c) = (self.row, self.column);
-        let [red, green, blue] = [0, 1, 2].map(|k| {
-            let (here, below) = (&self.grid.colour[r][k], &self.grid.colour[r + 1][k]);
-            mul(0.25, add(add(here[c], below[c + 1]), add(here[c + 1], below[c])))
-        });
-        Colour { rgba: [red, green, blue, 1.0] }
-    }
-
-    #[inline(always)]
-    fn sample_snapped(&self, pixels: [i32; 4], band: &mut Band<'_>) {
-        let (a, b) = (self.vertex(0, 0), self.vertex(0, 1));
-        let (c, d) = (self.vertex(1, 1), self.vertex(1, 0));
-        if let Some(triangle) = Triangle::new(a, b, c) {
-            self.fill(&triangle, pixels, band);
-        }
-        if let Some(triangle) = Triangle::new(a, c, d) {
-            self.fill(&triangle, pixels, band);
+    fn sample(&self, (row, column): Place, w: f32) -> Sample {
+        let surface = self.draw.surface();
+        let rate = self.frame.rate.trailing_zeros();
+        Sample {
+            depth: w.to_bits(),
+            patch: surface.patch,
+            u: surface.u + column as u32 * (surface.u_size() >> rate),
+            v: surface.v + row as u32 * (surface.v_size() >> rate),
         }
     }
 
-    /// Clips both triangles and samples what is left of them, as fans.
-    #[cold]
-    fn sample_clipped(&self, frame: &Frame, band: &mut Band<'_>) {
-        let (a, b) = (self.position(0, 0), self.position(0, 1));
-        let (c, d) = (self.position(1, 1), self.position(1, 0));
-        for triangle in [[a, b, c], [a, c, d]] {
-            let polygon = clip(frame, triangle);
-            for k in 2..polygon.count {
-                let fan = [0, k - 1, k].map(|k| project_clipped(frame, polygon.corners[k]));
-                let (left, right) = pixel_range(fan.map(|v| v.x));
-                let (top, bottom) = pixel_range(fan.map(|v| v.y));
-                if let Some(triangle) = Triangle::new(fan[0], fan[1], fan[2]) {
-                    self.fill(&triangle, [left, right, top, bottom], band);
-                }
-            }
+    /// Mean colour of the four vertices of a micropolygon.
+    #[inline(always)]
+    fn colour(&self, place: Place) -> Colour {
+        let at = self.index(place);
+        let below = at + self.grid.stride;
+        let mut rgba = [1.0; 4];
+        for k in 0..3 {
+            let colour = &self.grid.colour[k];
+            rgba[k] = mul(0.25, add(add(colour[at], colour[below + 1]), add(colour[at + 1], colour[below])));
         }
+        Colour { rgba }
     }
 
-    /// Samples a triangle at those of the given pixels that are inside the band.
+    /// Samples [`LANES`] micropolygons of one row.
     #[inline(always)]
-    fn fill(&self, triangle: &Triangle, [left, right, top, bottom]: [i32; 4], band: &mut Band<'_>) {
-        let (first_row, end_row) = band.rows();
-        for row in top.max(first_row as i32)..bottom.min(end_row as i32) {
-            for column in left.max(0)..right.min(band.width as i32) {
-                if let Some(w) = triangle.sample(column, row) {
-                    let place = (row as u32 - first_row) as usize * band.width as usize + column as usize;
-                    let new = Sample { depth: w.to_bits(), ..self.identity };
-                    if nearer(new, band.samples[place]) {
-                        band.samples[place] = new;
-                        band.colours[place] = self.colour();
+    fn block(&self, row: usize, block: usize, band: &mut Band<'_>) {
+        let quads = Quads::new(self.grid, self.index((row, block)));
+        let finds = quads.find();
+        for l in 0..LANES.min(self.frame.rate as usize - block) {
+            let place = (row, block + l);
+            match finds.state[l] {
+                NOTHING => {}
+                FOUND => {
+                    let (x, y) = (quads.left[l], quads.top[l]);
+                    if band.contains(x, y) {
+                        band.put(x, y, self.sample(place, finds.w[l]), self.colour(place));
                     }
                 }
+                _ => self.micropolygon(place, quads.pixels(l), band),
             }
         }
     }
+
+    /// Samples one quad of any size as the triangles a b c and a c d.
+    #[inline(never)]
+    fn micropolygon(&self, place: Place, pixels: [i32; 4], band: &mut Band<'_>) {
+        let (row, column) = place;
+        let places = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column)];
+        let quad = places.map(|place| self.vertex(place));
+        if quad.iter().any(|vertex| vertex.w == 0.0) {
+            let [a, b, c, d] = places.map(|place| self.grid.point(self.index(place)));
+            self.clipped([a, b, c], place, band);
+            self.clipped([a, c, d], place, band);
+            return;
+        }
+        let [left, right, top, bottom] = band.inside(pixels);
+        for y in top..bottom {
+            for x in left..right {
+                if let Some(w) = sample_quad(quad, x, y) {
+                    band.put(x, y, self.sample(place, w), self.colour(place));
+                }
+            }
+        }
+    }
+
+    /// Clips a triangle and samples what is left of it, as a fan.
+    #[cold]
+    fn clipped(&self, triangle: [[f32; 3]; 3], place: Place, band: &mut Band<'_>) {
+        let polygon = clip(self.frame, triangle);
+        for k in 2..polygon.count {
+            let fan = [0, k - 1, k].map(|k| project_clipped(self.frame, polygon.corners[k]));
+            self.triangle(fan, place, band);
+        }
+    }
+
+    /// Samples a triangle that belongs to the micropolygon at `place`.
+    #[inline(always)]
+    fn triangle(&self, triangle: [Vertex; 3], place: Place, band: &mut Band<'_>) {
+        let [a, b, c] = triangle;
+        let (left, right) = pixels_between(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let (top, bottom) = pixels_between(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+        let [left, right, top, bottom] = band.inside([left, right, top, bottom]);
+        for y in top..bottom {
+            for x in left..right {
+                if let Some(w) = sample_triangle(triangle, x, y) {
+                    band.put(x, y, self.sample(place, w), self.colour(place));
+                }
+            }
+        }
+    }
+
+    /// Closes the gaps to coarser neighbours (see `seam.rs`).
+    #[inline(always)]
+    fn seams(&self, band: &mut Band<'_>) {
+        for (border, seam) in self.grid.seams.iter().enumerate() {
+            if seam.longest > 1 {
+                self.seam(border, seam, band);
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn seam(&self, border: usize, seam: &Seam, band: &mut Band<'_>) {
+        let last = self.frame.rate as usize;
+        let at = |t: usize| [(0, t), (last, t), (t, 0), (t, last)][border];
+        let mut span = 2;
+        while span <= last.min(seam.longest as usize) {
+            for start in (0..last).step_by(span) {
+                let places = [at(start), at(start + span / 2), at(start + span)];
+                self.sliver(places.map(|place| self.vertex(place)), places[1], band);
+            }
+            span *= 2;
+        }
+        if let Some([low, high]) = seam.chord {
+            let middle = at(last);
+            let chord = [project(self.frame, low), self.vertex(middle), project(self.frame, high)];
+            self.sliver(chord, middle, band);
+        }
+    }
+
+    #[inline(always)]
+    fn sliver(&self, triangle: [Vertex; 3], middle: Place, band: &mut Band<'_>) {
+        if triangle.iter().all(|vertex| vertex.w > 0.0) {
+            self.triangle(triangle, self.micropolygon_beside(middle), band);
+        }
+    }
+
+    /// A micropolygon that has this vertex.
+    #[inline(always)]
+    fn micropolygon_beside(&self, (row, column): Place) -> Place {
+        let last = self.frame.rate as usize - 1;
+        (row.min(last), column.min(last))
+    }
 }
 
-fn pixel_range([a, b, c]: [i32; 3]) -> (i32, i32) {
-    pixels_between(a.min(b).min(c), a.max(b).max(c))
+/// 1 / distance at the centre of a pixel if one of the quad's two triangles, a b c and a c d, owns it; of
+/// two that overlap, the nearer.
+#[inline(always)]
+fn sample_quad(quad: [Vertex; 4], column: i32, row: i32) -> Option<f32> {
+    let [a, b, c, d] = [
+        Corner::new(quad[0], column, row),
+        Corner::new(quad[1], column, row),
+        Corner::new(quad[2], column, row),
+        Corner::new(quad[3], column, row),
+    ];
+    let diagonal = edge(c, a);
+    let first = [edge(b, c), diagonal, edge(a, b)];
+    let second = [edge(c, d), edge(d, a), -diagonal];
+    match (owns([a, b, c], first), owns([a, c, d], second)) {
+        (true, false) => Some(depth([a, b, c], first)),
+        (false, true) => Some(depth([a, c, d], second)),
+        (true, true) => Some(crate::num::max(depth([a, b, c], first), depth([a, c, d], second))),
+        (false, false) => None,
+    }
 }
 
 /// Does no micropolygon of the grid face the eye? Block-level back-face culling (Weber 2014, sec. 4.4).
 /// The front is the side from which u runs to the right where v runs up.
-fn faces_away<const ROW: usize>(frame: &Frame, grid: &Grid<ROW>) -> bool {
-    let vertex = |r: usize, c: usize| Vertex { x: grid.x[r][c], y: grid.y[r][c], w: grid.w[r][c] };
-    let rate = frame.rate as usize;
-    (0..rate).all(|r| {
-        (0..rate).all(|c| {
-            let quad = [vertex(r, c), vertex(r, c + 1), vertex(r + 1, c + 1), vertex(r + 1, c)];
-            quad.iter().all(|v| v.w > 0.0)
-                && signed_area(quad[0], quad[1], quad[2]) >= 0
-                && signed_area(quad[0], quad[2], quad[3]) >= 0
-        })
+fn faces_away(grid: &Grid) -> bool {
+    let vertex = |at: usize| Vertex { x: grid.x[at], y: grid.y[at], w: grid.w[at] };
+    let stride = grid.stride;
+    (0..stride - 1).flat_map(|row| (0..stride - 1).map(move |column| row * stride + column)).all(|at| {
+        let quad = [vertex(at), vertex(at + 1), vertex(at + stride + 1), vertex(at + stride)];
+        quad.iter().all(|v| v.w > 0.0)
+            && signed_area(quad[0], quad[1], quad[2]) >= 0
+            && signed_area(quad[0], quad[2], quad[3]) >= 0
     })
 }

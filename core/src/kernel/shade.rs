@@ -1,52 +1,55 @@
 //! shade: a colour a vertex. Ambient and diffuse light (Lambert) and a highlight (Blinn 1977), two-sided.
 
 use crate::abi::{Frame, Object};
-use crate::kernel::dice::Grid;
-use crate::num::{add, dot3, flush, max, mul, neg, rsqrt, scale3, sub};
+use crate::kernel::dice::{Grid, LANES, load3, store};
+use crate::num::{add, add3, dot3, flush, max, mul, neg, rsqrt, scale3, sub};
 
 /// Smallest squared length that is normalised.
 const TINY: f32 = 1.0e-30;
 
 /// Fills `grid.colour` with linear RGB from positions and normals.
 #[inline(always)]
-pub fn shade<const ROW: usize>(frame: &Frame, object: &Object, grid: &mut Grid<ROW>) {
-    for row in 0..=frame.rate as usize {
-        let (position, normal) = (&grid.position[row], &grid.normal[row]);
-        let colour = &mut grid.colour[row];
-        ambient(frame, object, colour);
+pub fn shade(frame: &Frame, object: &Object, grid: &mut Grid) {
+    for block in grid.blocks() {
+        let (point, mut normal) = (load3(&grid.position, block), load3(&grid.normal, block));
+        let mut to_eye = [[0.0; LANES]; 3];
+        for l in 0..LANES {
+            let away = unit([point[0][l], point[1][l], point[2][l]]);
+            [to_eye[0][l], to_eye[1][l], to_eye[2][l]] = scale3(away, neg(1.0));
+            let facing = towards_eye(away, [normal[0][l], normal[1][l], normal[2][l]]);
+            [normal[0][l], normal[1][l], normal[2][l]] = facing;
+        }
+        let mut colour = [[0.0; LANES]; 3];
+        for k in 0..3 {
+            colour[k] = [mul(frame.ambient[k], object.colour[k]); LANES];
+        }
         for light in 0..frame.light_count as usize {
-            add_light(frame, object, light, position, normal, colour);
+            add_light(frame, object, light, [&point, &to_eye, &normal], &mut colour);
+        }
+        for (all, lanes) in grid.colour.iter_mut().zip(&colour) {
+            store(all, block, lanes);
         }
     }
 }
 
+/// Adds what one light contributes to [`LANES`] vertices, given their positions, the unit directions to the
+/// eye and the unit normals on its side.
 #[inline(always)]
-fn ambient<const ROW: usize>(frame: &Frame, object: &Object, colour: &mut [[f32; ROW]; 3]) {
-    for k in 0..3 {
-        colour[k] = [mul(frame.ambient[k], object.colour[k]); ROW];
-    }
-}
-
-/// Adds what one light contributes to a row of vertices.
-#[inline(always)]
-fn add_light<const ROW: usize>(
+fn add_light(
     frame: &Frame,
     object: &Object,
     light: usize,
-    position: &[[f32; ROW]; 3],
-    normal: &[[f32; ROW]; 3],
-    colour: &mut [[f32; ROW]; 3],
+    [point, to_eye, normal]: [&[[f32; LANES]; 3]; 3],
+    colour: &mut [[f32; LANES]; 3],
 ) {
-    let intensity = frame.light_colour[light];
-    let (mut diffuse, mut highlight) = ([0.0; ROW], [0.0; ROW]);
-    for l in 0..ROW {
-        let point = [position[0][l], position[1][l], position[2][l]];
-        let facing = towards_eye(point, [normal[0][l], normal[1][l], normal[2][l]]);
+    let (mut diffuse, mut highlight) = ([0.0; LANES], [0.0; LANES]);
+    for l in 0..LANES {
+        let point = [point[0][l], point[1][l], point[2][l]];
+        let normal = [normal[0][l], normal[1][l], normal[2][l]];
         let to_light = direction(frame.light_vector[light], point);
-        let to_eye = scale3(unit(point), neg(1.0));
-        let half = unit([0, 1, 2].map(|k| add(to_light[k], to_eye[k])));
-        diffuse[l] = max(dot3(facing, to_light), 0.0);
-        highlight[l] = if diffuse[l] > 0.0 { max(dot3(facing, half), 0.0) } else { 0.0 };
+        let half = unit(add3(to_light, [to_eye[0][l], to_eye[1][l], to_eye[2][l]]));
+        diffuse[l] = max(dot3(normal, to_light), 0.0);
+        highlight[l] = if diffuse[l] > 0.0 { max(dot3(normal, half), 0.0) } else { 0.0 };
     }
     for _ in 0..object.gloss {
         for h in &mut highlight {
@@ -54,9 +57,9 @@ fn add_light<const ROW: usize>(
         }
     }
     for k in 0..3 {
-        for l in 0..ROW {
+        for l in 0..LANES {
             let reflected = add(mul(object.colour[k], diffuse[l]), mul(object.specular, highlight[l]));
-            colour[k][l] = add(colour[k][l], mul(reflected, intensity[k]));
+            colour[k][l] = add(colour[k][l], mul(reflected, frame.light_colour[light][k]));
         }
     }
 }
@@ -64,13 +67,14 @@ fn add_light<const ROW: usize>(
 /// The unit vector from a point to a light.
 #[inline(always)]
 fn direction(light: [f32; 4], point: [f32; 3]) -> [f32; 3] {
-    unit([0, 1, 2].map(|k| sub(light[k], mul(point[k], light[3]))))
+    let [x, y, z] = scale3(point, light[3]);
+    unit([sub(light[0], x), sub(light[1], y), sub(light[2], z)])
 }
 
 /// The normal, turned to the side that the eye sees.
 #[inline(always)]
-fn towards_eye(point: [f32; 3], normal: [f32; 3]) -> [f32; 3] {
-    let flip = if dot3(normal, point) > 0.0 { -1.0 } else { 1.0 };
+fn towards_eye(away: [f32; 3], normal: [f32; 3]) -> [f32; 3] {
+    let flip = if dot3(normal, away) > 0.0 { -1.0 } else { 1.0 };
     scale3(normal, flip)
 }
 

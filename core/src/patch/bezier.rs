@@ -56,18 +56,8 @@ pub const fn blossom(a: u32, b: u32) -> [[f32; 4]; 4] {
     let mixed = add(sb, ar);
     [
         cubic(a),
-        [
-            mul(s, sr),
-            add(mul(s, mixed), mul(a, sr)),
-            add(mul(a, mixed), mul(s, ab)),
-            mul(a, ab),
-        ],
-        [
-            mul(r, sr),
-            add(mul(r, mixed), mul(b, sr)),
-            add(mul(b, mixed), mul(r, ab)),
-            mul(b, ab),
-        ],
+        [mul(s, sr), add(mul(s, mixed), mul(a, sr)), add(mul(a, mixed), mul(s, ab)), mul(a, ab)],
+        [mul(r, sr), add(mul(r, mixed), mul(b, sr)), add(mul(b, mixed), mul(r, ab)), mul(b, ab)],
         cubic(b),
     ]
 }

@@ -23,15 +23,11 @@ impl Net {
     #[must_use]
     pub fn in_eye_space(patch: &Patch, object: &Object) -> Self {
         let m = &object.to_eye;
-        let coordinate = |row: usize| {
-            let mut out = [0.0; 16];
-            for (l, out) in out.iter_mut().enumerate() {
-                let xy = add(mul(m[row], patch.x[l]), mul(m[row + 1], patch.y[l]));
-                *out = add(add(xy, mul(m[row + 2], patch.z[l])), m[row + 3]);
-            }
-            out
-        };
-        Self { x: coordinate(0), y: coordinate(4), z: coordinate(8) }
+        Self {
+            x: transformed(patch, [m[0], m[1], m[2], m[3]]),
+            y: transformed(patch, [m[4], m[5], m[6], m[7]]),
+            z: transformed(patch, [m[8], m[9], m[10], m[11]]),
+        }
     }
 
     /// Largest magnitude among all coordinates: the measure for rounding errors.
@@ -53,19 +49,34 @@ impl Net {
     pub fn restricted(&self, surface: Surface) -> Self {
         let along_u = blossom(surface.u, surface.u + surface.u_size());
         let along_v = blossom(surface.v, surface.v + surface.v_size());
-        let part = |c: &[f32; 16]| combine_v(&combine_u(c, &along_u), &along_v);
-        Self { x: part(&self.x), y: part(&self.y), z: part(&self.z) }
+        Self {
+            x: combine_v(&combine_u(&self.x, &along_u), &along_v),
+            y: combine_v(&combine_u(&self.y, &along_u), &along_v),
+            z: combine_v(&combine_u(&self.z, &along_u), &along_v),
+        }
     }
+}
+
+/// One eye-space coordinate of all control points.
+#[inline(always)]
+fn transformed(patch: &Patch, row: [f32; 4]) -> [f32; 16] {
+    let mut out = [0.0; 16];
+    for (l, out) in out.iter_mut().enumerate() {
+        let xy = add(mul(row[0], patch.x[l]), mul(row[1], patch.y[l]));
+        *out = add(add(xy, mul(row[2], patch.z[l])), row[3]);
+    }
+    out
 }
 
 /// `weights` applied along `u`: four weighted sums of the rows of the net.
 #[inline(always)]
 fn combine_u(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
     let mut out = [0.0; 16];
-    for l in 0..16 {
-        let (w, j) = (&weights[l / 4], l % 4);
-        let low = add(mul(w[0], c[j]), mul(w[1], c[4 + j]));
-        out[l] = add(low, add(mul(w[2], c[8 + j]), mul(w[3], c[12 + j])));
+    for (k, w) in weights.iter().enumerate() {
+        for j in 0..4 {
+            let low = add(mul(w[0], c[j]), mul(w[1], c[4 + j]));
+            out[4 * k + j] = add(low, add(mul(w[2], c[8 + j]), mul(w[3], c[12 + j])));
+        }
     }
     out
 }
@@ -74,10 +85,11 @@ fn combine_u(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
 #[inline(always)]
 fn combine_v(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
     let mut out = [0.0; 16];
-    for l in 0..16 {
-        let (w, i) = (&weights[l % 4], l / 4 * 4);
-        let low = add(mul(w[0], c[i]), mul(w[1], c[i + 1]));
-        out[l] = add(low, add(mul(w[2], c[i + 2]), mul(w[3], c[i + 3])));
+    for i in 0..4 {
+        for (l, w) in weights.iter().enumerate() {
+            let low = add(mul(w[0], c[4 * i]), mul(w[1], c[4 * i + 1]));
+            out[4 * i + l] = add(low, add(mul(w[2], c[4 * i + 2]), mul(w[3], c[4 * i + 3])));
+        }
     }
     out
 }
