@@ -63,7 +63,9 @@ fn sphere(centre: Point, radius: f64) -> Vec<BezierPatch> {
     for pole in [1.0, -1.0] {
         for quarter in quarters(QUARTER) {
             let points = std::array::from_fn(|k| {
-                let ((out, up), (x, y)) = (profile[k / 4], quarter[k % 4]);
+                // Below, the other way round, so that the outer side is the front there too.
+                let along = if pole > 0.0 { k % 4 } else { 3 - k % 4 };
+                let ((out, up), (x, y)) = (profile[k / 4], quarter[along]);
                 [centre[0] + radius * out * x, centre[1] + radius * out * y, centre[2] + radius * up * pole]
             });
             patches.push(patch(points));

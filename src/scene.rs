@@ -16,6 +16,13 @@ pub struct BezierPatch {
     pub points: [[f32; 3]; 16],
 }
 
+impl BezierPatch {
+    /// Lets v run the other way, so that the back becomes the front.
+    pub fn reverse(&mut self) {
+        self.points.chunks_exact_mut(4).for_each(<[_]>::reverse);
+    }
+}
+
 /// Patches that share a transform and a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneObject {

@@ -55,6 +55,8 @@ struct ObjectTable {
     geometry: Option<Spanned<String>>,
     patches: Option<Spanned<Vec<Spanned<Vec<[f64; 3]>>>>>,
     generate: Option<Spanned<GenerateTable>>,
+    #[serde(default)]
+    reverse: bool,
     scale: Option<Spanned<ScaleValue>>,
     rotate: Option<Vector>,
     translate: Option<Vector>,
@@ -217,7 +219,7 @@ impl Place<'_> {
 
     fn object(&self, table: &Spanned<ObjectTable>) -> Result<SceneObject> {
         let object = table.get_ref();
-        let patches = match (&object.geometry, &object.patches, &object.generate) {
+        let mut patches = match (&object.geometry, &object.patches, &object.generate) {
             (Some(file), None, None) => self.geometry(file)?,
             (None, Some(list), None) => self.inline_patches(list)?,
             (None, None, Some(generator)) => self.generated(generator)?,
@@ -226,6 +228,9 @@ impl Place<'_> {
                 return Err(self.wrong(table, problem, "for example geometry = \"teapot.bpt\""));
             }
         };
+        if object.reverse {
+            patches.iter_mut().for_each(BezierPatch::reverse);
+        }
         Ok(SceneObject { patches, to_world: self.transform(object)?, material: self.material(object)? })
     }
 

@@ -1,0 +1,67 @@
+//! Random patches, surfaces and views, and exact evaluation, shared by the tests.
+#![allow(dead_code, missing_docs, unreachable_pub)] // each test uses its part
+
+use glam::{DAffine3, DVec3, Vec3};
+use micropoly_core::abi::{Frame, Object, Patch, Surface};
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
+use micropoly_core::patch::Net;
+
+/// A number generator whose seed stands in every failure message.
+pub fn random(seed: u64) -> fastrand::Rng {
+    fastrand::Rng::with_seed(seed)
+}
+
+pub fn between(random: &mut fastrand::Rng, low: f32, high: f32) -> f32 {
+    low + (high - low) * random.f32()
+}
+
+/// Control points scattered around a flat square of side 2.
+pub fn random_patch(random: &mut fastrand::Rng, roughness: f32) -> Patch {
+    let mut patch = Patch::default();
+    for k in 0..16 {
+        patch.x[k] = (k / 4) as f32 / 1.5 - 1.0 + between(random, -roughness, roughness);
+        patch.y[k] = (k % 4) as f32 / 1.5 - 1.0 + between(random, -roughness, roughness);
+        patch.z[k] = between(random, -roughness, roughness);
+    }
+    patch
+}
+
+/// A view of 640×360 pixels from anywhere around the origin, inside the patch now and then.
+pub fn random_view(random: &mut fastrand::Rng, near: f64) -> (Frame, Object) {
+    let axis = |random: &mut fastrand::Rng| f64::from(between(random, -1.0, 1.0));
+    let direction = DVec3::new(axis(random), axis(random), axis(random) + 1.0e-3);
+    let eye = direction * 4.0 * f64::from(random.f32());
+    let target = DVec3::new(axis(random), axis(random), axis(random));
+    let camera = Camera::look_at(eye, target, DVec3::new(0.1, 0.2, 1.0), 50.0, near).expect("a view");
+    view(&camera, 640, 360)
+}
+
+pub fn view(camera: &Camera, width: u32, height: u32) -> (Frame, Object) {
+    let options = FrameOptions { width, height, ..FrameOptions::default() };
+    let light = Light::Directional { to_light: DVec3::new(1.0, 2.0, 3.0), colour: Vec3::ONE };
+    let material = Material { colour: Vec3::splat(0.5), specular: 0.2, gloss: 4 };
+    (camera.frame(&options, Vec3::splat(0.1), &[light]), camera.object(DAffine3::IDENTITY, &material))
+}
+
+/// A surface somewhere in the first patch.
+pub fn random_surface(random: &mut fastrand::Rng, deepest: u32) -> Surface {
+    let mut surface = Surface::root(0);
+    for _ in 0..random.u32(0..=deepest) {
+        let halves = if random.bool() { surface.halves_u() } else { surface.halves_v() };
+        surface = halves[usize::from(random.bool())];
+    }
+    surface
+}
+
+/// The point at (u, v) by de Casteljau's algorithm in f64.
+pub fn exact_point(net: &Net, u: f64, v: f64) -> [f64; 3] {
+    let curve = |c: [f64; 4], t: f64| {
+        let mix = |a: f64, b: f64| a + (b - a) * t;
+        let (a, b, c) = (mix(c[0], c[1]), mix(c[1], c[2]), mix(c[2], c[3]));
+        mix(mix(a, b), mix(b, c))
+    };
+    [&net.x, &net.y, &net.z].map(|c| {
+        let row = |i: usize| curve([0, 1, 2, 3].map(|j| f64::from(c[4 * i + j])), v);
+        curve([row(0), row(1), row(2), row(3)], u)
+    })
+}

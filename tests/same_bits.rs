@@ -1,0 +1,50 @@
+//! Image and counts depend on nothing but scene and options: not on threads, batches, memory or the run.
+
+use micropoly::{Batch, FrameOptions, RenderOptions, Rendering, Scene, render};
+
+fn render_with(scene: &Scene, batch: Batch, threads: usize) -> Rendering {
+    let frame = FrameOptions { width: 320, height: 180, ..FrameOptions::default() };
+    render(scene, &RenderOptions { frame, batch, threads }, |_| {}).expect("renders")
+}
+
+/// Everything that must not change; the peak of the stack depends on the batch.
+fn essence(rendering: &Rendering) -> (String, [u64; 5]) {
+    let counts = &rendering.counts;
+    let numbers = [counts.processed, counts.drawn, counts.culled, counts.depth_limited, counts.micropolygons];
+    (rendering.image.hash(), numbers)
+}
+
+#[test]
+fn threads_batches_budgets_and_runs_do_not_matter() {
+    for name in ["teapot", "eyesplit", "spheres", "still-life"] {
+        let scene = Scene::load(format!("scenes/{name}.toml")).expect("a scene");
+        let expected = essence(&render_with(&scene, Batch::default(), 1));
+        for threads in [1, 2, 3, 7] {
+            for batch in [1, 2, 3, 7, 32, 100, 1000, 4096, 5000, 100_000] {
+                if batch < 7 && threads != 1 {
+                    continue; // slow, and there is nothing to share
+                }
+                let rendering = render_with(&scene, Batch::Surfaces(batch), threads);
+                assert_eq!(essence(&rendering), expected, "{name}: batch {batch}, {threads} threads");
+                let (peak, bound) = (rendering.counts.max_stack, rendering.sizes.stack_entries());
+                assert!(peak <= bound, "{name}: {peak} surfaces on a stack of {bound}");
+            }
+        }
+        let least = render_with(&scene, Batch::Surfaces(1), 1).bytes_allocated;
+        for budget in [least, least + 4096, 4 << 20, 64 << 20] {
+            let rendering = render_with(&scene, Batch::Memory(budget), 2);
+            assert_eq!(essence(&rendering), expected, "{name}: {budget} bytes");
+            assert!(rendering.bytes_allocated <= budget, "{name}: {budget} bytes");
+        }
+    }
+}
+
+#[test]
+fn back_face_culling_does_not_change_closed_objects() {
+    let scene = Scene::load("scenes/spheres.toml").expect("a scene");
+    let image = |cull_backfaces: bool| {
+        let frame = FrameOptions { width: 320, height: 180, cull_backfaces, ..FrameOptions::default() };
+        render(&scene, &RenderOptions { frame, ..RenderOptions::default() }, |_| {}).expect("renders").image
+    };
+    assert!(image(true) == image(false), "the images differ");
+}
