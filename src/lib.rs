@@ -13,7 +13,7 @@
 //! ```
 //!
 //! This crate holds what a host needs around the kernels: scenes and their files, images, statistics and
-//! the choice of a device. The kernels and the plans that run them are in [`core`](micropoly_core).
+//! the choice of a device. The kernels and the plans that run them are in [`core`].
 
 pub mod bpt;
 pub mod error;

@@ -18,6 +18,9 @@ const MAX_GENERATED: u32 = 10_000_000;
 
 type Vector = Spanned<[f64; 3]>;
 
+/// Patches written into the scene file: a list of points each.
+type PatchList = Spanned<Vec<Spanned<Vec<[f64; 3]>>>>;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneTable {
@@ -53,7 +56,7 @@ struct LightTable {
 #[serde(deny_unknown_fields)]
 struct ObjectTable {
     geometry: Option<Spanned<String>>,
-    patches: Option<Spanned<Vec<Spanned<Vec<[f64; 3]>>>>>,
+    patches: Option<PatchList>,
     generate: Option<Spanned<GenerateTable>>,
     #[serde(default)]
     reverse: bool,
@@ -247,7 +250,7 @@ impl Place<'_> {
         crate::bpt::load(&path)
     }
 
-    fn inline_patches(&self, list: &Spanned<Vec<Spanned<Vec<[f64; 3]>>>>) -> Result<Vec<BezierPatch>> {
+    fn inline_patches(&self, list: &PatchList) -> Result<Vec<BezierPatch>> {
         let mut patches = Vec::with_capacity(list.get_ref().len());
         for patch in list.get_ref() {
             let points: [[f64; 3]; 16] = patch.get_ref().as_slice().try_into().map_err(|_| {

@@ -150,7 +150,7 @@ fn resolution(text: &str) -> Result<(u32, u32), String> {
 
 fn pixels(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
-        Ok(value) if value >= 0.01 && value <= 1.0e6 => Ok(value),
+        Ok(value) if (0.01..=1.0e6).contains(&value) => Ok(value),
         _ => Err("choose a number of pixels from 0.01 to 1000000".into()),
     }
 }

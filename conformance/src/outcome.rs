@@ -1,0 +1,102 @@
+//! Rendering a case and boiling the result down to what must be equal everywhere.
+
+use micropoly_core::abi::{Colour, Frame, Object, Patch, Sample};
+use micropoly_core::backend::Device;
+use micropoly_core::render::{Buffers, FramePlan};
+use serde::Serialize;
+
+/// Entries that are read from the device at once.
+const BLOCK: usize = 1 << 16;
+
+/// A scene as devices read it, with a name for reports.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// What reports call it.
+    pub name: String,
+    /// Camera, lights and limits.
+    pub frame: Frame,
+    /// Transforms and materials.
+    pub objects: Vec<Object>,
+    /// All patches.
+    pub patches: Vec<Patch>,
+}
+
+/// What must be equal on every device, for every batch and number of threads.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Outcome {
+    /// Hash of all samples: depth and identity.
+    pub samples: String,
+    /// Hash of all colours, before they are rounded to pixels.
+    pub colours: String,
+    /// Samples that something covers.
+    pub covered: u64,
+    /// Surfaces that were bounded.
+    pub processed: u64,
+    /// Surfaces that were diced.
+    pub drawn: u64,
+    /// Surfaces found invisible.
+    pub culled: u64,
+    /// Drawn surfaces that could not be split far enough.
+    pub depth_limited: u64,
+    /// Micropolygons of all drawn surfaces.
+    pub micropolygons: u64,
+}
+
+/// Renders a case in batches of `batch` surfaces.
+///
+/// # Errors
+/// What the plan or the device reports.
+pub fn run<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Outcome, D::Error> {
+    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+    let plan = FramePlan::new(case.frame, count(case.patches.len()), count(case.objects.len()), batch)?;
+    let buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    let counts = plan.run(device, &buffers, |_| {})?;
+    let (samples, covered) = hash_samples(device, &buffers, plan.sizes().pixels())?;
+    Ok(Outcome {
+        samples,
+        colours: hash_colours(device, &buffers, plan.sizes().pixels())?,
+        covered,
+        processed: counts.processed,
+        drawn: counts.drawn,
+        culled: counts.culled,
+        depth_limited: counts.depth_limited,
+        micropolygons: counts.micropolygons,
+    })
+}
+
+fn hash_samples<D: Device>(
+    device: &mut D,
+    buffers: &Buffers<D::Buffer>,
+    pixels: u64,
+) -> Result<(String, u64), D::Error> {
+    let (mut hasher, mut covered) = (blake3::Hasher::new(), 0);
+    let mut block = vec![Sample::default(); BLOCK];
+    for first in (0..pixels).step_by(BLOCK) {
+        let block = &mut block[..BLOCK.min((pixels - first) as usize)];
+        device.read(&buffers.samples, first, block)?;
+        for sample in block.iter() {
+            covered += u64::from(sample.depth > 0);
+            for word in [sample.depth, sample.patch, sample.u, sample.v] {
+                hasher.update(&word.to_le_bytes());
+            }
+        }
+    }
+    Ok((hasher.finalize().to_hex().to_string(), covered))
+}
+
+fn hash_colours<D: Device>(
+    device: &mut D,
+    buffers: &Buffers<D::Buffer>,
+    pixels: u64,
+) -> Result<String, D::Error> {
+    let mut hasher = blake3::Hasher::new();
+    let mut block = vec![Colour::default(); BLOCK];
+    for first in (0..pixels).step_by(BLOCK) {
+        let block = &mut block[..BLOCK.min((pixels - first) as usize)];
+        device.read(&buffers.colours, first, block)?;
+        for value in block.iter().flat_map(|colour| colour.rgba) {
+            hasher.update(&value.to_bits().to_le_bytes());
+        }
+    }
+    Ok(hasher.finalize().to_hex().to_string())
+}

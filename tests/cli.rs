@@ -1,0 +1,233 @@
+//! The program as a user meets it: what it writes, and what it says when something is wrong.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+fn micropoly(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_micropoly")).args(arguments).output().expect("the program starts")
+}
+
+/// A folder with a scene file of this content and the patch file that it may name.
+fn folder(scene: &str, patches: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("scene.toml"), scene).expect("written");
+    std::fs::write(folder.path().join("patches.bpt"), patches).expect("written");
+    let scene = folder.path().join("scene.toml");
+    (folder, scene)
+}
+
+/// Renders a scene small, with more arguments; gives exit code, messages and whether an image was written.
+fn render(scene: &Path, more: &[&str]) -> (i32, String, bool) {
+    let image = scene.with_file_name("out.png");
+    let mut arguments = vec!["render", scene.to_str().expect("UTF-8"), "-o", image.to_str().expect("UTF-8")];
+    if !more.iter().any(|argument| argument.starts_with("--res")) {
+        arguments.push("--res=64x36");
+    }
+    arguments.extend(more);
+    let output = micropoly(&arguments);
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code().expect("an exit code"), text, image.exists())
+}
+
+/// A scene with these fields of the camera and this object.
+fn scene(camera: &str, object: &str) -> String {
+    format!("[camera]\n{camera}\n[[light]]\ndirection = [0, 1, -1]\n[[object]]\n{object}\n")
+}
+
+const CAMERA: &str = "eye = [0, -5, 1]\ntarget = [0, 0, 0]\nfov = 40\nnear = 0.1";
+const OBJECT: &str = "geometry = \"patches.bpt\"";
+const FLAT: &str = "1\n1 1\n-1 -1 0  -1 1 0  1 -1 0  1 1 0\n";
+
+/// A failure that says what, where and how to mend it.
+fn assert_refused((code, text, image): (i32, String, bool), what: &str) {
+    assert!(code == 1 || code == 2, "exit code {code}: {text}");
+    assert!(!text.contains("panicked"), "{text}");
+    assert!(text.contains(what), "`{what}` is missing in: {text}");
+    assert!(!image, "no image must be written");
+}
+
+#[test]
+fn a_good_scene_renders_and_its_statistics_can_be_relied_on() {
+    let (folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let stats = folder.path().join("stats.json");
+    let (code, text, image) = render(&scene, &["--stats", stats.to_str().expect("UTF-8"), "--threads", "2"]);
+    assert_eq!((code, image), (0, true), "{text}");
+    let json: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(stats).expect("statistics")).expect("JSON");
+    assert_eq!(json["schema"], "micropoly-stats");
+    assert_eq!(json["version"], 1);
+    assert_eq!(json["backend"], "cpu");
+    assert_eq!(json["patches"], 1);
+    assert_eq!(json["options"]["width"], 64);
+    for name in ["processed", "drawn", "culled", "depth_limited", "max_stack", "stack_bound"] {
+        assert!(json["surfaces"][name].is_u64(), "surfaces.{name}");
+    }
+    for name in ["load", "setup", "bound", "split", "draw", "resolve", "encode", "total"] {
+        assert!(json["seconds"][name].is_f64(), "seconds.{name}");
+    }
+    for name in ["micropolygons", "bytes_allocated"] {
+        assert!(json[name].as_u64().is_some_and(|number| number > 0), "{name}");
+    }
+    assert!(json["image_hash"].as_str().is_some_and(|hash| hash.starts_with("blake3:")));
+    assert!(json["scene"].is_string() && json["device"].is_string());
+}
+
+#[test]
+fn files_that_are_not_there_or_not_right_are_refused() {
+    let empty = tempfile::tempdir().expect("a folder");
+    for name in ["scene.toml", "patches.bpt", "scene"] {
+        assert_refused(render(&empty.path().join(name), &[]), "cannot be read");
+    }
+    for (text, what) in [
+        ("", "missing field `camera`"),
+        ("[camera", "scene.toml:1"),
+        ("\n\n[camera]\neye = 5", "scene.toml:4"),
+        ("[camera]\ncolor = 1", "unknown field `color`"),
+    ] {
+        let (_folder, scene) = folder(text, FLAT);
+        assert_refused(render(&scene, &[]), what);
+    }
+    for (patches, what) in [
+        ("", "patches.bpt:1: the file ends before the number of patches"),
+        ("2\n3 3\n0 0 0\n", "the file ends before a coordinate of patch 1 of 2"),
+        (
+            "1\n1 1\n0 0 0\n0 1 0\n1 0 NaN\n1 1 0\n",
+            "patches.bpt:5: a coordinate of patch 1 of 1 is not finite",
+        ),
+        ("1\n1 1\n0 0 0\n0 1 0\n1 0 inf\n1 1 0\n", "patches.bpt:5"),
+        ("1\n9 9\n", "only 1 to 3 can be drawn"),
+        ("99999999999999999999\n", "stands where the number of patches should be"),
+        ("4000000000\n3 3\n", "the file ends before a coordinate of patch 1"),
+        ("1\n1 1\n1e30 0 0\n0 1 0\n1 0 0\n1 1 0\n", "1e12 is the limit"),
+    ] {
+        let (_folder, scene) = folder(&scene(CAMERA, OBJECT), patches);
+        let (code, text, image) = render(&scene, &[]);
+        assert!(text.contains("help: "), "{text}");
+        assert_refused((code, text, image), what);
+    }
+    let (folder, scene) = folder(&scene(CAMERA, "geometry = \"other.bpt\""), FLAT);
+    assert_refused(render(&scene, &[]), "other.bpt");
+    std::fs::write(folder.path().join("scene.toml"), [0xff, 0xfe, 0x00]).expect("written");
+    assert_refused(render(&scene, &[]), "not text in UTF-8");
+}
+
+#[test]
+fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
+    let camera = |change: (&str, &str)| scene(&CAMERA.replace(change.0, change.1), OBJECT);
+    for (text, what) in [
+        (camera(("near = 0.1", "near = 0")), "scene.toml:5: near is 0"),
+        (camera(("near = 0.1", "near = -1")), "near is -1"),
+        (camera(("near = 0.1", "near = nan")), "near is NaN"),
+        (camera(("fov = 40", "fov = 180")), "scene.toml:4: fov is 180"),
+        (camera(("fov = 40", "fov = 0")), "fov is 0"),
+        (camera(("eye = [0, -5, 1]", "eye = [0, 0, 0]")), "scene.toml:2: the camera looks nowhere"),
+        (camera(("eye = [0, -5, 1]", "eye = [inf, 0, 0]")), "not finite"),
+        (scene(CAMERA, ""), "exactly one of geometry, patches and generate"),
+        (scene(CAMERA, "patches = [[[0, 0, 0]]]"), "a patch of 1 points"),
+        (scene(CAMERA, "patches = []"), "the list of patches is empty"),
+        (scene(CAMERA, "geometry = \"patches.obj\""), "not a .bpt file"),
+        (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"red\""), "this is not a colour"),
+        (scene(CAMERA, "geometry = \"patches.bpt\"\nshininess = 3"), "power of two"),
+        (scene(CAMERA, "geometry = \"patches.bpt\"\nscale = nan"), "scale"),
+        (scene(CAMERA, "generate = { kind = \"hair\", count = 0 }"), "makes no patches"),
+        (scene(CAMERA, "generate = { kind = \"hair\", count = 4000000000 }"), "more than"),
+        (scene(CAMERA, "generate = { kind = \"moss\", count = 1 }"), "unknown variant"),
+        (format!("[camera]\n{CAMERA}\n"), "no [[object]]"),
+    ] {
+        let (_folder, scene) = folder(&text, FLAT);
+        assert_refused(render(&scene, &[]), what);
+    }
+}
+
+#[test]
+fn options_that_cannot_be_are_refused() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    for (argument, what) in [
+        ("--res=0x0", "1 to 16384"),
+        ("--res=100000x1", "1 to 16384"),
+        ("--res=12", "1280x720"),
+        ("--batch=-1", "--batch"),
+        ("--batch=0", "--batch"),
+        ("--batch=99999999999", "--batch"),
+        ("--bound=0", "pixels"),
+        ("--bound=nan", "pixels"),
+        ("--dice=3", "1, 2, 4, 8 or 16"),
+        ("--dice=-8", "1, 2, 4, 8 or 16"),
+        ("--max-depth=0", "--max-depth"),
+        ("--max-depth=42", "--max-depth"),
+        ("--memory=-1", "--memory"),
+        ("--memory=1KiB", "use --memory"),
+        ("--threads=-1", "--threads"),
+        ("--backend=wgpu", "wgpu is not available"),
+        ("--backend=metal", "metal"),
+        ("--stats=/nowhere/stats.json", "cannot be written"),
+    ] {
+        let (code, text, image) = render(&scene, &[argument]);
+        assert!(code == 1 || code == 2, "{argument} gave exit code {code}: {text}");
+        assert!(text.contains(what) && !text.contains("panicked"), "{argument}: {text}");
+        assert!(!image || argument.starts_with("--stats"), "{argument}");
+    }
+    let output = micropoly(&["render", scene.to_str().expect("UTF-8"), "-o", "/nowhere/out.png"]);
+    assert_eq!(output.status.code(), Some(1));
+    let output = micropoly(&["render", scene.to_str().expect("UTF-8"), "-o", "out.jpg"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn the_smallest_memory_that_is_named_is_enough() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let (_, text, _) = render(&scene, &["--memory=1KiB"]);
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let at = words.iter().position(|word| *word == "--memory").expect("a remedy");
+    let least: u64 = words[at + 1].parse().expect("a number of bytes");
+    assert_eq!(render(&scene, &[&format!("--memory={least}")]).0, 0);
+    let (code, text, _) = render(&scene, &[&format!("--memory={}", least - 1)]);
+    assert!(code == 1 && text.contains("too small"), "{text}");
+}
+
+#[test]
+fn odd_but_possible_input_renders() {
+    let point = format!("1\n3 3\n{}", "0 0 0\n".repeat(16));
+    let line = "1\n1 1\n0 0 0  0 0 0  1 0 0  1 0 0\n";
+    let inside = CAMERA
+        .replace("eye = [0, -5, 1]", "eye = [0, 0, 0.001]")
+        .replace("target = [0, 0, 0]", "target = [1, 0, 0]");
+    for (camera, patches) in [(CAMERA, point.as_str()), (CAMERA, line), (inside.as_str(), FLAT)] {
+        let (_folder, scene) = folder(&scene(camera, OBJECT), patches);
+        for more in [
+            &["--dice=1"][..],
+            &["--dice=16", "--bound=0.5"],
+            &["--max-depth=1"],
+            &["--max-depth=41"],
+            &["--batch=1"],
+        ] {
+            let (code, text, image) = render(&scene, more);
+            assert_eq!((code, image), (0, true), "{more:?}: {text}");
+        }
+        for resolution in ["--res=1x1", "--res=16384x1", "--res=1x3000"] {
+            let (code, text, image) = render(&scene, &[resolution]);
+            assert_eq!((code, image), (0, true), "{resolution}: {text}");
+        }
+    }
+}
+
+#[test]
+fn patch_files_render_without_a_scene_file() {
+    let image = tempfile::tempdir().expect("a folder");
+    let path = image.path().join("teapot.png");
+    let path = path.to_str().expect("UTF-8");
+    let output = micropoly(&["render", "scenes/teapot.bpt", "-o", path, "--res", "160x90"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn info_says_what_is_in_a_scene() {
+    let output = micropoly(&["info", "scenes/teapot.toml"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success());
+    for what in ["32 bicubic", "stack bound", "camera"] {
+        assert!(text.contains(what), "{text}");
+    }
+}
