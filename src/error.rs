@@ -47,12 +47,14 @@ pub enum Error {
     #[error("{error}\n  help: {help}", error = .0, help = remedy(.0))]
     Plan(PlanError),
     /// A backend is not there.
-    #[error("backend {backend} is not available: {why}\n  help: use --backend cpu")]
+    #[error("backend {backend} is not available: {why}\n  help: {remedy}")]
     Backend {
         /// Which backend.
-        backend: String,
+        backend: &'static str,
         /// Why not.
-        why: String,
+        why: &'static str,
+        /// What to do about it.
+        remedy: &'static str,
     },
     /// The device failed.
     #[error("the device failed: {0}\n  help: try a smaller --res, --batch or --memory")]

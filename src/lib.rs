@@ -15,6 +15,7 @@
 //! This crate holds what a host needs around the kernels: scenes and their files, images, statistics and
 //! the choice of a device. The kernels and the plans that run them are in [`core`].
 
+mod backend;
 pub mod bpt;
 pub mod error;
 pub mod generate;
@@ -27,12 +28,11 @@ mod timed;
 
 pub use micropoly_core as core;
 
+pub use crate::backend::{Backend, render};
 pub use crate::core::camera::{Camera, FrameOptions, Light, Material};
 pub use crate::core::render::Counts;
 pub use crate::error::{Error, Result};
 pub use crate::image::Image;
-#[cfg(feature = "cpu")]
-pub use crate::render::render;
 pub use crate::render::{Batch, RenderOptions, Rendering, render_on, sizes_for};
 pub use crate::scene::{BezierPatch, DeviceScene, Scene, SceneObject};
 pub use crate::timed::Seconds;

@@ -8,6 +8,7 @@ use micropoly_core::error::PlanError;
 use micropoly_core::memory::{DEFAULT_BATCH, Sizes};
 use micropoly_core::render::{Counts, FramePlan};
 
+use crate::backend::Backend;
 use crate::error::{Error, Result};
 use crate::image::{Encoder, Image};
 use crate::scene::{DeviceScene, Scene};
@@ -34,6 +35,8 @@ impl Default for Batch {
 /// Everything that can be chosen about a rendering.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RenderOptions {
+    /// What renders. The image does not depend on it.
+    pub backend: Backend,
     /// Image size, bound, dice rate, depth.
     pub frame: FrameOptions,
     /// Batch size or memory budget. The image does not depend on it.
@@ -57,18 +60,6 @@ pub struct Rendering {
     pub device: String,
     /// Wall time by stage.
     pub seconds: Seconds,
-}
-
-/// Renders on the CPU; `progress` is told the counts so far, now and then.
-///
-/// # Errors
-/// [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
-#[cfg(feature = "cpu")]
-pub fn render(scene: &Scene, options: &RenderOptions, progress: impl FnMut(&Counts)) -> Result<Rendering> {
-    let device = micropoly_backend_cpu::CpuDevice::new(options.threads)
-        .map_err(|error| Error::Device(error.to_string()))?;
-    let name = device.name();
-    render_on(device, name, scene, options, progress)
 }
 
 /// Renders on any device.

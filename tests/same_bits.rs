@@ -4,7 +4,8 @@ use micropoly::{Batch, FrameOptions, RenderOptions, Rendering, Scene, render};
 
 fn render_with(scene: &Scene, batch: Batch, threads: usize) -> Rendering {
     let frame = FrameOptions { width: 320, height: 180, ..FrameOptions::default() };
-    render(scene, &RenderOptions { frame, batch, threads }, |_| {}).expect("renders")
+    render(scene, &RenderOptions { frame, batch, threads, ..RenderOptions::default() }, |_| {})
+        .expect("renders")
 }
 
 /// Everything that must not change; the peak of the stack depends on the batch.

@@ -2,7 +2,7 @@
 //! sampled per second. The surfaces are those of a ball that fills most of the image.
 #![allow(unsafe_code, missing_docs)] // only what `multiversion` and criterion generate
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
     CULL, Colour, DRAW, DRAW_LIMITED, Draw, Frame, Object, Patch, SPLIT_U, Sample, Surface,
@@ -102,19 +102,24 @@ fn stages(criterion: &mut Criterion) {
     group.bench_function("dice (vertices)", |bencher| bencher.iter(|| dice_all(&ball, &mut hot)));
     group.bench_function("shade (vertices)", |bencher| bencher.iter(|| shade_all(&ball, &mut hot)));
 
-    let mut grids = vec![Grid::default(); ball.draws.len()];
-    dice_all(&ball, &mut grids);
-    shade_all(&ball, &mut grids);
-    let (width, pixels) = (ball.frame.width, (ball.frame.width * ball.frame.height) as usize);
-    let (mut samples, mut colours) = (vec![Sample::default(); pixels], vec![Colour::default(); pixels]);
-    group.throughput(Throughput::Elements(ball.draws.len() as u64 * 64));
+    // As many grids as fit a second-level cache; in a frame each is sampled while it is in the first.
+    let some = Ball { draws: ball.draws.iter().step_by(ball.draws.len() / 64).copied().collect(), ..ball };
+    let mut grids = vec![Grid::default(); some.draws.len()];
+    dice_all(&some, &mut grids);
+    shade_all(&some, &mut grids);
+    let Frame { width, height, .. } = some.frame;
+    let pixels = (width * height) as usize;
+    let mut colours = vec![Colour::default(); pixels];
+    group.throughput(Throughput::Elements(some.draws.len() as u64 * 64));
     group.bench_function("sample (micropolygons)", |bencher| {
-        bencher.iter(|| {
-            samples.fill(Sample::default());
-            let (samples, colours) = (&mut samples[..], &mut colours[..]);
-            let mut band = Band { width, height: ball.frame.height, first_row: 0, samples, colours };
-            sample_all(&ball, &grids, &mut band);
-        });
+        bencher.iter_batched_ref(
+            || vec![Sample::default(); pixels],
+            |samples| {
+                let mut band = Band { width, height, first_row: 0, samples, colours: &mut colours };
+                sample_all(&some, &grids, &mut band);
+            },
+            BatchSize::LargeInput,
+        );
     });
     group.finish();
 }

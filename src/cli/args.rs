@@ -6,7 +6,7 @@ use bytesize::ByteSize;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::MAX_BATCH;
-use micropoly::{Batch, FrameOptions, RenderOptions};
+use micropoly::{Backend, Batch, FrameOptions, RenderOptions};
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -39,9 +39,15 @@ pub(crate) struct RenderArguments {
     /// How to show progress on standard error: a bar on a terminal, plain lines, or nothing.
     #[arg(long, value_enum, default_value_t = ProgressStyle::Auto)]
     pub(crate) progress: ProgressStyle,
-    /// What to render on.
+    /// What to render on. The image does not depend on it.
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
-    pub(crate) backend: BackendChoice,
+    backend: BackendChoice,
+}
+
+impl RenderArguments {
+    pub(crate) fn options(&self) -> RenderOptions {
+        RenderOptions { backend: self.backend.into(), ..self.frame.options() }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -100,7 +106,7 @@ impl FrameArguments {
             levels: self.max_depth,
             cull_backfaces: self.cull_backfaces,
         };
-        RenderOptions { frame, batch, threads: usize::from(self.threads) }
+        RenderOptions { frame, batch, threads: usize::from(self.threads), ..RenderOptions::default() }
     }
 }
 
@@ -124,6 +130,17 @@ pub(crate) enum BackendChoice {
     Wgpu,
     /// An OpenCL device.
     Ocl,
+}
+
+impl From<BackendChoice> for Backend {
+    fn from(choice: BackendChoice) -> Self {
+        match choice {
+            BackendChoice::Auto => Self::Auto,
+            BackendChoice::Cpu => Self::Cpu,
+            BackendChoice::Wgpu => Self::Wgpu,
+            BackendChoice::Ocl => Self::Ocl,
+        }
+    }
 }
 
 fn png_path(text: &str) -> Result<PathBuf, String> {

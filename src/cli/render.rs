@@ -7,15 +7,15 @@ use std::time::Instant;
 use micropoly::stats::Stats;
 use micropoly::{Error, Result, Scene, Seconds};
 
-use super::args::{BackendChoice, RenderArguments};
+use super::args::RenderArguments;
 use super::progress::Progress;
 use super::summary;
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let start = Instant::now();
-    check_backend(arguments.backend)?;
+    let options = arguments.options();
+    let backend = options.backend.resolve()?;
     check_folder(&arguments.output)?;
-    let options = arguments.frame.options();
     let scene = Scene::load(&arguments.scene)?;
     let load = start.elapsed().as_secs_f64();
 
@@ -28,24 +28,12 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let encode = encoding.elapsed().as_secs_f64();
     let total = start.elapsed().as_secs_f64();
     let seconds = Seconds { load, encode, total, ..rendering.seconds };
-    let stats = Stats::new(&scene.name, "cpu", &options, &rendering, seconds);
+    let stats = Stats::new(&scene.name, backend.name(), &options, &rendering, seconds);
     if let Some(path) = &arguments.stats {
         write_stats(path, &stats)?;
     }
     eprint!("{}", summary::of(&stats, &arguments.output));
     Ok(())
-}
-
-fn check_backend(choice: BackendChoice) -> Result<()> {
-    let missing = |backend: &str, built: bool| {
-        let why = if built { "it cannot render yet" } else { "this program was built without it" };
-        Err(Error::Backend { backend: backend.to_owned(), why: why.to_owned() })
-    };
-    match choice {
-        BackendChoice::Auto | BackendChoice::Cpu => Ok(()),
-        BackendChoice::Wgpu => missing("wgpu", cfg!(feature = "wgpu")),
-        BackendChoice::Ocl => missing("ocl", cfg!(feature = "ocl")),
-    }
 }
 
 /// Finds out before a long rendering that its image could not be written.
