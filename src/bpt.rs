@@ -40,7 +40,7 @@ fn parse(path: &Path, text: &str) -> Result<Vec<BezierPatch>> {
     }
     match words.next() {
         None => Ok(patches),
-        Some(word) => Err(words.wrong(&format!("`{word}` follows the last of {count} patches"))),
+        Some(word) => Err(words.wrong(&format!("`{}` follows the last of {count} patches", shortened(word)))),
     }
 }
 
@@ -92,6 +92,11 @@ fn raised_rows(rows: &[[Point; 4]]) -> [Point; 16] {
     points
 }
 
+/// The beginning of a word that may be of any length.
+fn shortened(word: &str) -> String {
+    word.chars().take(40).collect()
+}
+
 /// The words of a text, with the line each stands in.
 struct Words<'a> {
     path: &'a Path,
@@ -122,7 +127,7 @@ impl<'a> Words<'a> {
 
     fn number<T: std::str::FromStr>(&mut self, what: &str) -> Result<T> {
         let word = self.next().ok_or_else(|| self.wrong(&format!("the file ends before {what}")))?;
-        word.parse().map_err(|_| self.wrong(&format!("`{word}` stands where {what} should be")))
+        word.parse().map_err(|_| self.wrong(&format!("`{}` stands where {what} should be", shortened(word))))
     }
 
     fn coordinate(&mut self, what: &str) -> Result<f32> {

@@ -116,6 +116,19 @@ impl Scene {
         bounds_of(&self.objects)
     }
 
+    /// Colours are finite and not negative; files are checked when they are read, scenes made in memory here.
+    fn check_colours(&self) -> Result<()> {
+        let lights = self.lights.iter().map(|light| match *light {
+            Light::Directional { colour, .. } | Light::Point { colour, .. } => colour,
+        });
+        let materials = self.objects.iter().map(|object| object.material.colour);
+        let sound = |colour: Vec3| colour.is_finite() && colour.min_element() >= 0.0;
+        if lights.chain(materials).chain([self.background, self.ambient]).all(sound) {
+            return Ok(());
+        }
+        Err(Error::scene("a colour is negative or not finite", "use values from 0"))
+    }
+
     /// The scene as devices read it.
     ///
     /// # Errors
@@ -125,6 +138,7 @@ impl Scene {
             return Err(Error::scene("the scene has no patches", "add an [[object]] with geometry"));
         }
         check_options(options)?;
+        self.check_colours()?;
         if !self.camera.is_usable(options.height) {
             return Err(Error::scene(
                 "the camera's near plane or field of view is out of range",
@@ -174,18 +188,17 @@ fn check_options(options: &FrameOptions) -> Result<()> {
 /// Refuses what would overflow in the kernels: NaN, infinities, coordinates beyond 10¹².
 fn check_extent(placed: &Object, object: &SceneObject) -> Result<()> {
     let m = &placed.to_eye;
-    let furthest =
-        object.patches.iter().flat_map(|patch| patch.points).fold(0.0_f64, |furthest, [x, y, z]| {
-            let reach = |r: usize| {
-                let parts = [m[r] * x, m[r + 1] * y, m[r + 2] * z, m[r + 3]];
-                parts.iter().map(|part| f64::from(part.abs())).sum::<f64>()
-            };
-            // `max` would pass over NaN.
-            [reach(0), reach(4), reach(8)].into_iter().fold(furthest, |a, b| if b <= a { a } else { b })
-        });
-    if furthest <= f64::from(MAX_COORDINATE) {
-        return Ok(());
+    let reach = |row: usize, [x, y, z]: [f32; 3]| {
+        let parts = [m[row] * x, m[row + 1] * y, m[row + 2] * z, m[row + 3]];
+        parts.iter().map(|part| f64::from(part.abs())).sum::<f64>()
+    };
+    for point in object.patches.iter().flat_map(|patch| patch.points) {
+        for furthest in [reach(0, point), reach(4, point), reach(8, point)] {
+            if furthest.is_nan() || furthest > f64::from(MAX_COORDINATE) {
+                let problem = format!("an object reaches {furthest:e} units from the eye; 1e12 is the limit");
+                return Err(Error::scene(problem, "scale the scene down, or remove the outlying points"));
+            }
+        }
     }
-    let problem = format!("an object reaches {furthest:e} units from the eye; 1e12 is the limit");
-    Err(Error::scene(problem, "scale the scene down, or remove the outlying points"))
+    Ok(())
 }

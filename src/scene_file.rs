@@ -13,8 +13,8 @@ use crate::generate::{self, Generator};
 use crate::image::linear_from_srgb;
 use crate::scene::{BezierPatch, Scene, SceneObject};
 
-/// Most patches that one generator may make.
-const MAX_GENERATED: u32 = 10_000_000;
+/// Most patches that the generators of a scene may make together.
+const MAX_GENERATED: u64 = 10_000_000;
 
 type Vector = Spanned<[f64; 3]>;
 
@@ -114,6 +114,7 @@ fn parse(path: &Path, text: &str) -> Result<Scene> {
     if let Some(extra) = table.light.get(MAX_LIGHTS) {
         return Err(at.wrong(extra, format!("there are more than {MAX_LIGHTS} lights"), "remove some"));
     }
+    at.check_generated(&table.object)?;
     let mut objects = Vec::with_capacity(table.object.len());
     for object in &table.object {
         objects.push(at.object(object)?);
@@ -178,7 +179,9 @@ impl Place<'_> {
             ColourValue::Srgb(text) => srgb(text),
         };
         match linear {
-            Some(rgb) if rgb.min_element() >= 0.0 && rgb.max_element() <= 1.0e6 => Ok(rgb.as_vec3()),
+            Some(rgb) if rgb.is_finite() && rgb.min_element() >= 0.0 && rgb.max_element() <= 1.0e6 => {
+                Ok(rgb.as_vec3())
+            }
             _ => Err(self.wrong(
                 value,
                 "this is not a colour",
@@ -269,11 +272,25 @@ impl Place<'_> {
         Ok(patches)
     }
 
+    /// Refuses more generated patches than memory is likely to hold, before any is made.
+    fn check_generated(&self, objects: &[Spanned<ObjectTable>]) -> Result<()> {
+        let mut total = 0;
+        for table in objects.iter().filter_map(|object| object.get_ref().generate.as_ref()) {
+            let GenerateTable { kind, count, .. } = *table.get_ref();
+            total += u64::from(count) * u64::from(kind.patches_each());
+            if total > MAX_GENERATED {
+                let problem =
+                    format!("with count = {count} the scene has more than {MAX_GENERATED} generated patches");
+                return Err(self.wrong(table, problem, "choose a smaller count"));
+            }
+        }
+        Ok(())
+    }
+
     fn generated(&self, table: &Spanned<GenerateTable>) -> Result<Vec<BezierPatch>> {
         let GenerateTable { kind, count, seed } = *table.get_ref();
-        if count == 0 || count.saturating_mul(kind.patches_each()) > MAX_GENERATED {
-            let problem = format!("count = {count} makes no patches, or more than {MAX_GENERATED}");
-            return Err(self.wrong(table, problem, "choose another count"));
+        if count == 0 {
+            return Err(self.wrong(table, "count = 0 makes no patches", "choose another count"));
         }
         Ok(generate::generate(kind, count, seed))
     }
@@ -311,7 +328,8 @@ impl Place<'_> {
 
 /// Linear RGB of `#rrggbb`.
 fn srgb(text: &str) -> Option<DVec3> {
-    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6 && digits.is_ascii())?;
+    let is_hex = |digits: &&str| digits.len() == 6 && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+    let digits = text.strip_prefix('#').filter(is_hex)?;
     let channel = |at: usize| {
         let value = u8::from_str_radix(&digits[at..at + 2], 16).ok()?;
         Some(linear_from_srgb(f64::from(value) / 255.0))

@@ -40,6 +40,8 @@ const CAMERA: &str = "eye = [0, -5, 1]\ntarget = [0, 0, 0]\nfov = 40\nnear = 0.1
 const OBJECT: &str = "geometry = \"patches.bpt\"";
 const FLAT: &str = "1\n1 1\n-1 -1 0  -1 1 0  1 -1 0  1 1 0\n";
 
+const HAIR: &str = "generate = { kind = \"hair\", count = 6000000 }";
+
 /// A failure that says what, where and how to mend it.
 fn assert_refused((code, text, image): (i32, String, bool), what: &str) {
     assert!(code == 1 || code == 2, "exit code {code}: {text}");
@@ -133,6 +135,12 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (scene(CAMERA, "geometry = \"patches.bpt\"\nscale = nan"), "scale"),
         (scene(CAMERA, "generate = { kind = \"hair\", count = 0 }"), "makes no patches"),
         (scene(CAMERA, "generate = { kind = \"hair\", count = 4000000000 }"), "more than"),
+        (
+            scene(CAMERA, &format!("{HAIR}\n[[object]]\n{HAIR}")),
+            "scene.toml:11: with count = 6000000 the scene has more than",
+        ),
+        (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = [nan, 1, 1]"), "this is not a colour"),
+        (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"#+f+f+f\""), "this is not a colour"),
         (scene(CAMERA, "generate = { kind = \"moss\", count = 1 }"), "unknown variant"),
         (format!("[camera]\n{CAMERA}\n"), "no [[object]]"),
     ] {

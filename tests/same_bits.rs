@@ -49,3 +49,18 @@ fn back_face_culling_does_not_change_closed_objects() {
     };
     assert!(image(true) == image(false), "the images differ");
 }
+
+#[test]
+fn scenes_made_in_memory_are_checked_too() {
+    let scene = Scene::load("scenes/teapot.toml").expect("a scene");
+    for point in [0, 3, 14, 15] {
+        for value in [f32::NAN, f32::INFINITY, 1.0e30] {
+            let mut broken = scene.clone();
+            broken.objects[0].patches[7].points[point][1] = value;
+            assert!(broken.for_device(&FrameOptions::default()).is_err(), "point {point} is {value}");
+        }
+    }
+    let mut broken = scene;
+    broken.ambient.x = f32::NAN;
+    assert!(broken.for_device(&FrameOptions::default()).is_err());
+}

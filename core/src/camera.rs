@@ -94,7 +94,7 @@ impl Camera {
         focal > f64::from(1.0 / MAX_FOCAL)
             && focal <= f64::from(MAX_FOCAL)
             && self.near as f32 >= MIN_NEAR
-            && self.near <= f64::from(crate::abi::MAX_COORDINATE)
+            && self.near as f32 <= crate::abi::MAX_COORDINATE
     }
 
     /// Everything the kernels need to know; lights beyond [`MAX_LIGHTS`] are left out.
