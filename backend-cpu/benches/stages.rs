@@ -35,7 +35,7 @@ fn ball() -> Ball {
     let (mut bounded, mut draws) = (Vec::new(), Vec::new());
     while let Some(surface) = stack.pop() {
         bounded.push(surface);
-        let verdict = bound(&frame, &patches[surface.patch as usize], &object, surface);
+        let verdict = bound(&frame, &patches[surface.patch_id as usize], &object, surface);
         match verdict.code {
             CULL => {}
             DRAW | DRAW_LIMITED => draws.push(Draw::new(surface, verdict)),
@@ -61,14 +61,14 @@ fn octant(index: u32) -> Patch {
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 fn bound_all(ball: &Ball) -> u32 {
-    let verdict = |s: &Surface| bound(&ball.frame, &ball.patches[s.patch as usize], &ball.object, *s).code;
+    let verdict = |s: &Surface| bound(&ball.frame, &ball.patches[s.patch_id as usize], &ball.object, *s).code;
     ball.bounded.iter().map(verdict).sum()
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 fn dice_all(ball: &Ball, grids: &mut [Grid]) {
     for (index, draw) in ball.draws.iter().enumerate() {
-        let net = Net::in_eye_space(&ball.patches[draw.patch as usize], &ball.object);
+        let net = Net::in_eye_space(&ball.patches[draw.patch_id as usize], &ball.object);
         let count = grids.len();
         dice(&net, &ball.frame, draw.surface(), &mut grids[index % count]);
     }

@@ -140,8 +140,9 @@ impl Device for CpuDevice {
             (Stage::Bound, Items::Taken) => stages::bound(&self.pool, buffers),
             (Stage::Scan, Items::Taken) => stages::scan(buffers),
             (Stage::Split, Items::Taken) => stages::split(buffers),
-            (Stage::Draw, Items::Drawn) => stages::draw(&self.pool, threads, buffers),
+            (Stage::Draw, Items::Image { .. }) => stages::draw(&self.pool, threads, buffers),
             (Stage::Flush, _) => stages::flush(buffers),
+            (Stage::KnownAnswers, Items::Count(count)) => stages::known_answers(buffers, count),
             _ => Err(CpuError::Bindings { stage: stage.name() }),
         }
     }

@@ -3,9 +3,10 @@
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
 use micropoly_core::abi::{
-    Colour, Control, Draw, Frame, Limits, Object, Patch, Sample, Slot, Surface, Verdict,
+    Colour, Control, Draw, Frame, Limits, Object, Patch, Question, Sample, Slot, Surface, Verdict,
 };
 use micropoly_core::kernel::dice::{Grid, dice};
+use micropoly_core::kernel::known_answers::answer as known_answer;
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::scan::scan as scan_batch;
 use micropoly_core::kernel::shade::shade;
@@ -67,6 +68,15 @@ pub(crate) fn bound(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>) -> Resul
     Ok(())
 }
 
+pub(crate) fn known_answers(buffers: Buffers<'_, '_>, count: u32) -> Result<(), CpuError> {
+    let questions = buffers[1].view::<Question>()?;
+    let mut answers = buffers[2].view_mut::<u32>()?;
+    for (question, answer) in questions.iter().zip(answers.iter_mut()).take(count as usize) {
+        *answer = known_answer(*question);
+    }
+    Ok(())
+}
+
 #[multiversion(targets(
     "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi1+bmi2+lzcnt+popcnt",
     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
@@ -79,7 +89,7 @@ fn bound_chunk(
     verdicts: &mut [Verdict],
 ) {
     for (surface, verdict) in surfaces.iter().zip(verdicts) {
-        let patch = &patches[surface.patch as usize];
+        let patch = &patches[surface.patch_id as usize];
         *verdict = bound_one(frame, patch, &objects[patch.object as usize], *surface);
     }
 }
@@ -172,7 +182,7 @@ fn draw_band(scene: Scene<'_>, grid: &mut Grid, band: &mut Band<'_>) {
         if bottom <= first_row || top >= end_row {
             continue;
         }
-        let patch = &scene.patches[draw.patch as usize];
+        let patch = &scene.patches[draw.patch_id as usize];
         let object = &scene.objects[patch.object as usize];
         let net = Net::in_eye_space(patch, object);
         dice(&net, scene.frame, draw.surface(), grid);

@@ -4,6 +4,7 @@
 //! hash of every sample and colour, bit by bit, and all counts. Outcomes of two devices, batches or thread
 //! counts must be equal; snapshots of them are kept with the tests, one for all backends.
 
+pub mod headers;
 mod outcome;
 
 pub use outcome::{Case, Outcome, run};

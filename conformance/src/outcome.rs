@@ -76,7 +76,7 @@ fn hash_samples<D: Device>(
         device.read(&buffers.samples, first, block)?;
         for sample in block.iter() {
             covered += u64::from(sample.depth > 0);
-            for word in [sample.depth, sample.patch, sample.u, sample.v] {
+            for word in [sample.depth, sample.patch_id, sample.u, sample.v] {
                 hasher.update(&word.to_le_bytes());
             }
         }

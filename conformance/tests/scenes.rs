@@ -55,3 +55,9 @@ fn all_backends_give_the_bits_of_the_snapshot() {
         insta::assert_json_snapshot!(case.name.replace(' ', "_"), expected);
     }
 }
+
+#[test]
+fn the_cpu_gives_the_known_answers() {
+    let mut device = CpuDevice::new(1).expect("threads");
+    assert_eq!(micropoly_core::known::check(&mut device).expect("runs"), None);
+}

@@ -5,25 +5,105 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Bits after the binary point of a patch parameter: `u` and `v` run from 0 to [`PARAM_ONE`].
-pub const PARAM_BITS: u32 = 24;
-/// The parameter value 1. Every multiple of 2⁻²⁴ in \[0, 1\], and one minus it, is exact in `f32`.
-pub const PARAM_ONE: u32 = 1 << PARAM_BITS;
-/// A range is never halved more often than this along one parameter.
-pub const MAX_SPLITS: u32 = 20;
-/// Largest dice rate (micropolygons a side): a fully split range still has this many parameter steps.
-pub const MAX_RATE: u32 = 1 << (PARAM_BITS - MAX_SPLITS);
+/// Value of a shared constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// An unsigned integer.
+    U32(u32),
+    /// A signed integer.
+    I32(i32),
+    /// A float.
+    F32(f32),
+}
+
+/// A type that shared constants may have.
+trait ConstantType {
+    fn value(self) -> Value;
+}
+
+impl ConstantType for u32 {
+    fn value(self) -> Value {
+        Value::U32(self)
+    }
+}
+
+impl ConstantType for i32 {
+    fn value(self) -> Value {
+        Value::I32(self)
+    }
+}
+
+impl ConstantType for f32 {
+    fn value(self) -> Value {
+        Value::F32(self)
+    }
+}
+
+/// Declares constants together with the list from which device headers are made.
+macro_rules! shared_constants {
+    ($($(#[$about:meta])* const $name:ident: $type:ty = $value:expr;)*) => {
+        $($(#[$about])* pub const $name: $type = $value;)*
+
+        /// Name and value of every constant shared with devices.
+        pub fn constants() -> impl Iterator<Item = (&'static str, Value)> {
+            [$((stringify!($name), $name.value()),)*].into_iter()
+        }
+    };
+}
+
+shared_constants! {
+    /// Bits after the binary point of a patch parameter: `u` and `v` run from 0 to [`PARAM_ONE`].
+    const PARAM_BITS: u32 = 24;
+    /// The parameter value 1. Every multiple of 2⁻²⁴ in \[0, 1\], and one minus it, is exact in `f32`.
+    const PARAM_ONE: u32 = 1 << PARAM_BITS;
+    /// The parameter step 2⁻²⁴ as a float.
+    const PARAM_STEP: f32 = 1.0 / PARAM_ONE as f32;
+    /// A range is never halved more often than this along one parameter.
+    const MAX_SPLITS: u32 = 20;
+    /// Largest dice rate (micropolygons a side): a fully split range still has this many parameter steps.
+    const MAX_RATE: u32 = 1 << (PARAM_BITS - MAX_SPLITS);
+    /// Sub-pixel bits of a snapped vertex.
+    const SUBPIXEL_BITS: u32 = 8;
+    /// Snapped units a pixel.
+    const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
+    /// Vertices farther than this from the optical axis (pixels) are clipped before they are snapped; beyond
+    /// half of [`MAX_RESOLUTION`], and small enough for [`crate::num::round`].
+    const GUARD_BAND: f32 = 16000.0;
+    /// Rounding errors of an evaluated point stay below this share of the patch's extent in eye space
+    /// (about 12 roundings of 2⁻²⁴ each, in `bound` and in `dice`).
+    const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
+    /// Pixel offsets are limited to this magnitude before lengths are taken.
+    const FAR_OFF: f32 = (1 << 20) as f32;
+    /// Added to squared lengths in pixels², so that none is denormal.
+    const LENGTH_TINY: f32 = 1.0 / (1_u64 << 40) as f32;
+    /// A tangent shorter than this share of the patch's size is taken for vanished.
+    const FLAT: f32 = 1.0 / (1 << 12) as f32;
+    /// Squared sine of the angle between two tangents that are taken for parallel.
+    const PARALLEL: f32 = 1.0 / (1 << 24) as f32;
+    /// A seam compares lengths with the bound and a little more, so that rounding never leaves a chord out.
+    const SEAM_ALLOWANCE: f32 = 1.0 + 1.0 / 256.0;
+    /// Smallest squared length of a vector that is normalised for shading.
+    const SHADE_TINY: f32 = 1.0e-30;
+
+    /// Verdict of `bound`: not visible.
+    const CULL: u32 = 0;
+    /// Verdict of `bound`: small enough, to be diced.
+    const DRAW: u32 = 1;
+    /// Verdict of `bound`: halve the range of `u`.
+    const SPLIT_U: u32 = 2;
+    /// Verdict of `bound`: halve the range of `v`.
+    const SPLIT_V: u32 = 3;
+    /// Verdict of `bound`: would be split, but may not: drawn with what its dice rate can give.
+    const DRAW_LIMITED: u32 = 4;
+
+    /// Bit of [`Frame::flags`]: skip grids none of whose micropolygons face the eye.
+    const FLAG_CULL_BACKFACES: u32 = 1;
+}
+
 /// Largest number of levels `k`: level 0 is a whole patch, level `k - 1` is never split.
 pub const MAX_LEVELS: u32 = 2 * MAX_SPLITS + 1;
-/// Sub-pixel bits of a snapped vertex.
-pub const SUBPIXEL_BITS: u32 = 8;
-/// Snapped units a pixel.
-pub const SUBPIXELS: i32 = 1 << SUBPIXEL_BITS;
 /// Largest width and height of an image in pixels.
 pub const MAX_RESOLUTION: u32 = 16384;
-/// Vertices farther than this from the optical axis (pixels) are clipped before they are snapped; beyond
-/// half of [`MAX_RESOLUTION`], and small enough for [`crate::num::round`].
-pub const GUARD_BAND: f32 = 16000.0;
 /// Largest number of lights in a frame.
 pub const MAX_LIGHTS: usize = 8;
 /// Largest magnitude of an eye-space coordinate; scenes beyond it are refused on the host.
@@ -32,20 +112,6 @@ pub const MAX_COORDINATE: f32 = 1.0e12;
 pub const MIN_NEAR: f32 = 1.0e-6;
 /// Largest focal length in pixels.
 pub const MAX_FOCAL: f32 = 1.0e9;
-
-/// Verdict of `bound`: not visible.
-pub const CULL: u32 = 0;
-/// Verdict of `bound`: small enough, to be diced.
-pub const DRAW: u32 = 1;
-/// Verdict of `bound`: halve the range of `u`.
-pub const SPLIT_U: u32 = 2;
-/// Verdict of `bound`: halve the range of `v`.
-pub const SPLIT_V: u32 = 3;
-/// Verdict of `bound`: would be split, but may not: drawn with what its dice rate can give.
-pub const DRAW_LIMITED: u32 = 4;
-
-/// Bit of [`Frame::flags`]: skip grids none of whose micropolygons face the eye.
-pub const FLAG_CULL_BACKFACES: u32 = 1;
 
 /// Scalar type of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -199,6 +265,9 @@ shared_structs! {
         rate: u32,
         /// `FLAG_…` bits.
         flags: u32,
+        /// Always 0, which only the host knows: device kernels XOR it into every float result, so that their
+        /// compilers cannot fuse operations.
+        zero: u32,
         /// Number of lights in use.
         light_count: u32,
         /// Light from everywhere, linear RGB.
@@ -212,7 +281,7 @@ shared_structs! {
     /// A sub-surface: patch and dyadic parameter range (see [`crate::surface`]).
     struct Surface {
         /// Index of the patch.
-        patch: u32,
+        patch_id: u32,
         /// Low end of the range of `u` in units of 2⁻²⁴.
         u: u32,
         /// Low end of the range of `v` in units of 2⁻²⁴.
@@ -224,7 +293,7 @@ shared_structs! {
     /// A surface to be diced, and the pixels it can touch.
     struct Draw {
         /// Index of the patch.
-        patch: u32,
+        patch_id: u32,
         /// Low end of the range of `u` in units of 2⁻²⁴.
         u: u32,
         /// Low end of the range of `v` in units of 2⁻²⁴.
@@ -283,6 +352,18 @@ shared_structs! {
         overflow: u32,
     }
 
+    /// One operation of the exact arithmetic and its operands, as bits.
+    struct Question {
+        /// Index into [`crate::kernel::known_answers::OPERATIONS`].
+        operation: u32,
+        /// First operand.
+        a: u32,
+        /// Second operand.
+        b: u32,
+        /// Third operand.
+        c: u32,
+    }
+
     /// Sizes that the scheduler must know on the device.
     struct Limits {
         /// Patches of the scene.
@@ -300,7 +381,7 @@ shared_structs! {
         /// Bits of 1 / distance along the view axis: larger is nearer, 0 is infinitely far.
         depth: u32,
         /// Patch of the micropolygon.
-        patch: u32,
+        patch_id: u32,
         /// Low corner of the micropolygon, `u` in units of 2⁻²⁴.
         u: u32,
         /// Low corner of the micropolygon, `v` in units of 2⁻²⁴.

@@ -16,6 +16,7 @@
 //! | micropolygons become samples | [`kernel::sample::sample`] | `kernel/sample.rs` |
 //! | who calls what, in which order | [`schedule::Bounded`], [`render::FramePlan`] | `schedule/`, `render.rs` |
 //! | how much memory that can ever need | [`memory`] | `memory.rs` |
+//! | does a device compute as it must | [`known::check`] | `known.rs`, `kernel/known_answers.rs` |
 //! | what a backend must bring | [`backend::Device`] | `backend.rs` |
 //!
 //! All kernel arithmetic goes through [`num`], so that every device computes the same bits.
@@ -26,6 +27,7 @@ pub mod backend;
 pub mod camera;
 pub mod error;
 pub mod kernel;
+pub mod known;
 pub mod memory;
 pub mod num;
 pub mod patch;

@@ -144,7 +144,7 @@ impl FramePlan {
                     device.dispatch(Stage::Seed, Items::Count(self.sizes.patches), &all)?;
                 }
                 Step::Batch => run_batch(device, buffers)?,
-                Step::Draw => draw(device, buffers)?,
+                Step::Draw => self.draw(device, buffers)?,
                 Step::Ask => {
                     let control = ask(device, buffers)?;
                     counts.add(&control, self.frame.rate);
@@ -154,6 +154,13 @@ impl FramePlan {
                 Step::Done => return Ok(counts),
             }
         }
+    }
+
+    fn draw<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
+        let image = Items::Image { width: self.sizes.width, height: self.sizes.height };
+        let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
+        device.dispatch(Stage::Draw, image, &draw)?;
+        device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
     }
 }
 
@@ -165,12 +172,6 @@ fn run_batch<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D:
     device.dispatch(Stage::Scan, Items::Taken, &scan)?;
     let split = [&b.control, &b.batch, &b.verdicts, &b.slots, &b.stack, &b.draws];
     device.dispatch(Stage::Split, Items::Taken, &split)
-}
-
-fn draw<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
-    let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
-    device.dispatch(Stage::Draw, Items::Drawn, &draw)?;
-    device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
 }
 
 /// Reads the counts and starts them anew.

@@ -2,7 +2,8 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Layout, Limits, Object, Patch, Sample, Shared, Slot, Surface, Verdict,
+    Colour, Control, Draw, Frame, Layout, Limits, Object, Patch, Question, Sample, Shared, Slot, Surface,
+    Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -40,8 +41,14 @@ pub enum Items {
     Count(u32),
     /// One a surface of the batch in flight: [`Control::taken`], known on the device.
     Taken,
-    /// One a draw in the draw buffer: [`Control::waiting`] + [`Control::fresh`], known on the device.
-    Drawn,
+    /// The image, and for each part of it all draws in the draw buffer: [`Control::waiting`] +
+    /// [`Control::fresh`], known on the device.
+    Image {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
 }
 
 /// The stages of a frame, in order.
@@ -62,12 +69,22 @@ pub enum Stage {
     Draw,
     /// Empties the draw buffer: [`crate::kernel::take::flush`].
     Flush,
+    /// Does the device compute as it must? [`crate::kernel::known_answers`].
+    KnownAnswers,
 }
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 7] =
-        [Self::Seed, Self::Take, Self::Bound, Self::Scan, Self::Split, Self::Draw, Self::Flush];
+    pub const ALL: [Self; 8] = [
+        Self::Seed,
+        Self::Take,
+        Self::Bound,
+        Self::Scan,
+        Self::Split,
+        Self::Draw,
+        Self::Flush,
+        Self::KnownAnswers,
+    ];
 
     /// Its name: that of its file on every device.
     #[must_use]
@@ -80,6 +97,7 @@ impl Stage {
             Self::Split => "split",
             Self::Draw => "draw",
             Self::Flush => "flush",
+            Self::KnownAnswers => "known_answers",
         }
     }
 
@@ -140,6 +158,9 @@ impl Stage {
                 }
             }
             Self::Flush => const { &[write::<Control>("control")] },
+            Self::KnownAnswers => {
+                const { &[read::<Frame>("frame"), read::<Question>("questions"), write::<u32>("answers")] }
+            }
         }
     }
 }

@@ -11,8 +11,8 @@ const V_LEVEL_SHIFT: u32 = 5;
 impl Surface {
     /// The whole of a patch.
     #[must_use]
-    pub const fn root(patch: u32) -> Self {
-        Self { patch, u: 0, v: 0, shape: 0 }
+    pub const fn root(patch_id: u32) -> Self {
+        Self { patch_id, u: 0, v: 0, shape: 0 }
     }
 
     /// How often `u` was halved.
@@ -72,15 +72,15 @@ impl Draw {
     #[inline(always)]
     #[must_use]
     pub const fn new(surface: Surface, verdict: Verdict) -> Self {
-        let Surface { patch, u, v, shape } = surface;
-        Self { patch, u, v, shape, columns: verdict.columns, rows: verdict.rows }
+        let Surface { patch_id, u, v, shape } = surface;
+        Self { patch_id, u, v, shape, columns: verdict.columns, rows: verdict.rows }
     }
 
     /// The surface itself.
     #[inline(always)]
     #[must_use]
     pub const fn surface(self) -> Surface {
-        Surface { patch: self.patch, u: self.u, v: self.v, shape: self.shape }
+        Surface { patch_id: self.patch_id, u: self.u, v: self.v, shape: self.shape }
     }
 
     /// First row of pixels it can touch, and one past the last.

@@ -166,7 +166,7 @@ fn ties_in_depth_go_to_the_smaller_identity_in_any_order() {
     let mut random = common::random(33);
     let (frame, mut grid) = jittered_grid(&mut random, 8, 300);
     grid.w = [0.5; GRID];
-    let draw = |patch: u32| Draw { patch, ..Draw::default() };
+    let draw = |patch: u32| Draw { patch_id: patch, ..Draw::default() };
     let image = |order: [u32; 3]| {
         let pixels = (SIZE * SIZE) as usize;
         let (mut samples, mut colours) = (vec![Sample::default(); pixels], vec![Colour::default(); pixels]);
@@ -184,7 +184,7 @@ fn ties_in_depth_go_to_the_smaller_identity_in_any_order() {
     };
     let first = image([4, 9, 7]);
     assert!(first.iter().any(|sample| sample.depth > 0));
-    assert!(first.iter().all(|sample| sample.depth == 0 || sample.patch == 4));
+    assert!(first.iter().all(|sample| sample.depth == 0 || sample.patch_id == 4));
     for order in [[9, 7, 4], [7, 4, 9], [9, 4, 7]] {
         assert_eq!(image(order), first, "{order:?}");
     }

@@ -4,20 +4,13 @@
 //! is ever culled, and the control polygons are at least as long as the curves they control.
 
 use crate::abi::{
-    CULL, DRAW, DRAW_LIMITED, Frame, MAX_SPLITS, Object, Patch, SPLIT_U, SPLIT_V, Surface, Verdict,
+    CULL, DRAW, DRAW_LIMITED, FAR_OFF, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING, SPLIT_U,
+    SPLIT_V, Surface, Verdict,
 };
 use crate::kernel::project::perspective;
 use crate::num::{add, clamp, float, floor, max, min, mul, neg, recip, sqrt, sub};
 use crate::patch::Net;
 use crate::patch::net::fold;
-
-/// Rounding errors of an evaluated point stay below this share of the patch's extent in eye space
-/// (about 12 roundings of 2⁻²⁴ each, in `bound` and in `dice`).
-pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
-/// Pixel coordinates are limited to this magnitude before lengths are taken.
-const FAR_OFF: f32 = (1 << 20) as f32;
-/// Keeps squared lengths away from the denormals, in pixels².
-const TINY: f32 = 1.0 / (1_u64 << 40) as f32;
 
 /// The verdict on one surface.
 #[inline(always)]
@@ -137,7 +130,7 @@ fn on_screen(frame: &Frame, part: &Net) -> ([f32; 16], [f32; 16]) {
 #[inline(always)]
 fn segment(x: &[f32; 16], y: &[f32; 16], from: usize, to: usize) -> f32 {
     let (dx, dy) = (sub(x[to], x[from]), sub(y[to], y[from]));
-    sqrt(add(add(mul(dx, dx), mul(dy, dy)), TINY))
+    sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY))
 }
 
 /// Length in pixels of the longest control polygon along u.

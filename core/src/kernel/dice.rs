@@ -4,7 +4,7 @@
 //! coordinate an array and [`LANES`] vertices at once, so that compilers turn each loop into vector
 //! instructions.
 
-use crate::abi::{Frame, MAX_RATE, PARAM_ONE, Surface};
+use crate::abi::{FLAT, Frame, MAX_RATE, PARALLEL, PARAM_ONE, Surface};
 use crate::kernel::project::project;
 use crate::kernel::seam::{Seam, seams};
 use crate::num::{cross3, dot3, largest3, max, min, mul, rsqrt, scale3, sub, unit_scale};
@@ -270,11 +270,6 @@ pub fn position_at(net: &Net, u: u32, v: u32) -> [f32; 3] {
     let at = column.cubic_at(0);
     [blend4(at, curve.point[0]), blend4(at, curve.point[1]), blend4(at, curve.point[2])]
 }
-
-/// A tangent shorter than this share of the patch's size is taken for vanished.
-const FLAT: f32 = 1.0 / (1 << 12) as f32;
-/// Squared sine of the angle between two tangents that are taken for parallel.
-const PARALLEL: f32 = 1.0 / (1 << 24) as f32;
 
 /// Largest side of the box around the control points.
 #[inline(always)]

@@ -4,6 +4,7 @@
 pub mod bound;
 pub mod clip;
 pub mod dice;
+pub mod known_answers;
 pub mod project;
 pub mod quads;
 pub mod sample;

@@ -66,7 +66,7 @@ pub fn nearer(new: Sample, old: Sample) -> bool {
     if new.depth != old.depth {
         return new.depth > old.depth;
     }
-    (new.patch, new.u, new.v) < (old.patch, old.u, old.v)
+    (new.patch_id, new.u, new.v) < (old.patch_id, old.u, old.v)
 }
 
 /// Samples all micropolygons of a shaded grid inside the band.
@@ -113,7 +113,7 @@ impl Sampler<'_> {
         let rate = self.frame.rate.trailing_zeros();
         Sample {
             depth: w.to_bits(),
-            patch: surface.patch,
+            patch_id: surface.patch_id,
             u: surface.u + column as u32 * (surface.u_size() >> rate),
             v: surface.v + row as u32 * (surface.v_size() >> rate),
         }

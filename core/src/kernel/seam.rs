@@ -6,19 +6,12 @@
 //! between its vertices and these chords, up to the longest chord that any surface drawn along this border
 //! can have. That depends on the border alone, so both sides end at the same chords.
 
-use crate::abi::{Frame, PARAM_ONE, Surface};
+use crate::abi::{FAR_OFF, Frame, LENGTH_TINY, PARAM_ONE, SEAM_ALLOWANCE, Surface};
 use crate::kernel::dice::position_at;
 use crate::kernel::project::perspective;
 use crate::num::{add, clamp, mul, neg, sqrt, sub};
 use crate::patch::Net;
 use crate::patch::bezier::{blend4, blossom, cubic, param};
-
-/// Lengths are compared with the bound and a little more, so that rounding never leaves a chord out.
-const ALLOWANCE: f32 = 1.0 + 1.0 / 256.0;
-/// Pixel offsets are limited to this magnitude before lengths are taken, as in `bound`.
-const FAR_OFF: f32 = (1 << 20) as f32;
-/// Keeps squared lengths away from the denormals, in pixels².
-const TINY: f32 = 1.0 / (1_u64 << 40) as f32;
 
 /// How one border of a grid is closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -107,7 +100,7 @@ fn may_be_drawn(frame: &Frame, curve: &[[f32; 4]; 3], start: u32, size: u32) -> 
     let mut length = 0.0;
     for k in 0..3 {
         let (dx, dy) = (sub(x[k + 1], x[k]), sub(y[k + 1], y[k]));
-        length = add(length, sqrt(add(add(mul(dx, dx), mul(dy, dy)), TINY)));
+        length = add(length, sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY)));
     }
-    !nearer && length <= mul(frame.bound, ALLOWANCE)
+    !nearer && length <= mul(frame.bound, SEAM_ALLOWANCE)
 }

@@ -1,11 +1,8 @@
 //! shade: a colour a vertex. Ambient and diffuse light (Lambert) and a highlight (Blinn 1977), two-sided.
 
-use crate::abi::{Frame, Object};
+use crate::abi::{Frame, Object, SHADE_TINY};
 use crate::kernel::dice::{Grid, LANES, load3, store};
 use crate::num::{add, add3, dot3, flush, max, mul, neg, rsqrt, scale3, sub};
-
-/// Smallest squared length that is normalised.
-const TINY: f32 = 1.0e-30;
 
 /// Fills `grid.colour` with linear RGB from positions and normals.
 #[inline(always)]
@@ -80,5 +77,5 @@ fn towards_eye(away: [f32; 3], normal: [f32; 3]) -> [f32; 3] {
 
 #[inline(always)]
 fn unit(a: [f32; 3]) -> [f32; 3] {
-    scale3(a, rsqrt(max(dot3(a, a), TINY)))
+    scale3(a, rsqrt(max(dot3(a, a), SHADE_TINY)))
 }

@@ -3,14 +3,14 @@
 //! Weights are computed symmetrically: reversing a curve swaps summands that commute, so both directions
 //! give the same bits; at 0 and 1 the weights are exactly 0 and 1.
 
-use crate::abi::PARAM_BITS;
-use crate::num::{add, mul, sub};
+use crate::abi::PARAM_STEP;
+use crate::num::{add, float, mul, sub};
 
-/// The parameter `t · 2⁻²⁴` as a float: exact for `t` up to 2²⁴.
+/// The parameter `t · 2⁻²⁴` as a float: exact for `t` up to 2²⁴ ([`PARAM_STEP`] is 2⁻²⁴).
 #[inline(always)]
 #[must_use]
 pub const fn param(t: u32) -> f32 {
-    mul(t as i32 as f32, 1.0 / (1_u32 << PARAM_BITS) as f32)
+    mul(float(t as i32), PARAM_STEP)
 }
 
 /// Cubic Bernstein weights at `t`: (1-t)³, 3(1-t)²t, 3(1-t)t², t³.

@@ -1,0 +1,122 @@
+// Made from core/src/abi.rs; a test compares. To make it anew:
+// UPDATE_HEADERS=1 cargo test -p micropoly-conformance --test headers
+#define PARAM_BITS 24u
+#define PARAM_ONE 16777216u
+#define PARAM_STEP 5.9604645e-8f
+#define MAX_SPLITS 20u
+#define MAX_RATE 16u
+#define SUBPIXEL_BITS 8u
+#define SUBPIXELS 256
+#define GUARD_BAND 1.6e4f
+#define ROUNDING 9.536743e-7f
+#define FAR_OFF 1.048576e6f
+#define LENGTH_TINY 9.094947e-13f
+#define FLAT 2.4414063e-4f
+#define PARALLEL 5.9604645e-8f
+#define SEAM_ALLOWANCE 1.0039063e0f
+#define SHADE_TINY 1e-30f
+#define CULL 0u
+#define DRAW 1u
+#define SPLIT_U 2u
+#define SPLIT_V 3u
+#define DRAW_LIMITED 4u
+#define FLAG_CULL_BACKFACES 1u
+
+typedef struct {
+    float x[16];
+    float y[16];
+    float z[16];
+    uint object;
+} Patch;
+
+typedef struct {
+    float to_eye[12];
+    float colour[3];
+    float specular;
+    uint gloss;
+} Object;
+
+typedef struct {
+    uint width;
+    uint height;
+    float focal;
+    float centre_x;
+    float centre_y;
+    float near;
+    float bound;
+    uint levels;
+    uint rate;
+    uint flags;
+    uint zero;
+    uint light_count;
+    float ambient[3];
+    float light_vector[32];
+    float light_colour[24];
+} Frame;
+
+typedef struct {
+    uint patch_id;
+    uint u;
+    uint v;
+    uint shape;
+} Surface;
+
+typedef struct {
+    uint patch_id;
+    uint u;
+    uint v;
+    uint shape;
+    uint columns;
+    uint rows;
+} Draw;
+
+typedef struct {
+    uint code;
+    uint columns;
+    uint rows;
+} Verdict;
+
+typedef struct {
+    uint splits;
+    uint draws;
+} Slot;
+
+typedef struct {
+    uint stack;
+    uint taken;
+    uint base;
+    uint waiting;
+    uint fresh;
+    uint peak;
+    uint low;
+    uint processed;
+    uint culled;
+    uint drawn;
+    uint limited;
+    uint overflow;
+} Control;
+
+typedef struct {
+    uint operation;
+    uint a;
+    uint b;
+    uint c;
+} Question;
+
+typedef struct {
+    uint patches;
+    uint batch;
+    uint stack_room;
+    uint draw_room;
+} Limits;
+
+typedef struct {
+    uint depth;
+    uint patch_id;
+    uint u;
+    uint v;
+} Sample;
+
+typedef struct {
+    float rgba[4];
+} Colour;

@@ -1,0 +1,122 @@
+// Made from core/src/abi.rs; a test compares. To make it anew:
+// UPDATE_HEADERS=1 cargo test -p micropoly-conformance --test headers
+const PARAM_BITS: u32 = 24u;
+const PARAM_ONE: u32 = 16777216u;
+const PARAM_STEP: f32 = 5.9604645e-8f;
+const MAX_SPLITS: u32 = 20u;
+const MAX_RATE: u32 = 16u;
+const SUBPIXEL_BITS: u32 = 8u;
+const SUBPIXELS: i32 = 256i;
+const GUARD_BAND: f32 = 1.6e4f;
+const ROUNDING: f32 = 9.536743e-7f;
+const FAR_OFF: f32 = 1.048576e6f;
+const LENGTH_TINY: f32 = 9.094947e-13f;
+const FLAT: f32 = 2.4414063e-4f;
+const PARALLEL: f32 = 5.9604645e-8f;
+const SEAM_ALLOWANCE: f32 = 1.0039063e0f;
+const SHADE_TINY: f32 = 1e-30f;
+const CULL: u32 = 0u;
+const DRAW: u32 = 1u;
+const SPLIT_U: u32 = 2u;
+const SPLIT_V: u32 = 3u;
+const DRAW_LIMITED: u32 = 4u;
+const FLAG_CULL_BACKFACES: u32 = 1u;
+
+struct Patch {
+    x: array<f32, 16>,
+    y: array<f32, 16>,
+    z: array<f32, 16>,
+    object: u32,
+}
+
+struct Object {
+    to_eye: array<f32, 12>,
+    colour: array<f32, 3>,
+    specular: f32,
+    gloss: u32,
+}
+
+struct Frame {
+    width: u32,
+    height: u32,
+    focal: f32,
+    centre_x: f32,
+    centre_y: f32,
+    near: f32,
+    bound: f32,
+    levels: u32,
+    rate: u32,
+    flags: u32,
+    zero: u32,
+    light_count: u32,
+    ambient: array<f32, 3>,
+    light_vector: array<f32, 32>,
+    light_colour: array<f32, 24>,
+}
+
+struct Surface {
+    patch_id: u32,
+    u: u32,
+    v: u32,
+    shape: u32,
+}
+
+struct Draw {
+    patch_id: u32,
+    u: u32,
+    v: u32,
+    shape: u32,
+    columns: u32,
+    rows: u32,
+}
+
+struct Verdict {
+    code: u32,
+    columns: u32,
+    rows: u32,
+}
+
+struct Slot {
+    splits: u32,
+    draws: u32,
+}
+
+struct Control {
+    stack: u32,
+    taken: u32,
+    base: u32,
+    waiting: u32,
+    fresh: u32,
+    peak: u32,
+    low: u32,
+    processed: u32,
+    culled: u32,
+    drawn: u32,
+    limited: u32,
+    overflow: u32,
+}
+
+struct Question {
+    operation: u32,
+    a: u32,
+    b: u32,
+    c: u32,
+}
+
+struct Limits {
+    patches: u32,
+    batch: u32,
+    stack_room: u32,
+    draw_room: u32,
+}
+
+struct Sample {
+    depth: u32,
+    patch_id: u32,
+    u: u32,
+    v: u32,
+}
+
+struct Colour {
+    rgba: array<f32, 4>,
+}
