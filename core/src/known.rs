@@ -66,7 +66,7 @@ pub fn question(number: u32) -> Question {
     let (a, b, c) = (mixed(&mut state), mixed(&mut state), mixed(&mut state));
     match operation {
         // Denormals, now and then: a device must not flush them.
-        0..=2 if number % 8 == 0 => {
+        0..=2 if number.is_multiple_of(8) => {
             Question { operation, a: a & 0x807f_ffff, b: float_bits(b, 100, 140), c: 0 }
         }
         0 | 1 | 3..=8 => Question {
