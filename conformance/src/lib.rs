@@ -4,7 +4,11 @@
 //! hash of every sample and colour, bit by bit, and all counts. Outcomes of two devices, batches or thread
 //! counts must be equal; snapshots of them are kept with the tests, one for all backends.
 
+pub mod corpus;
 pub mod headers;
+pub mod mutation;
 mod outcome;
+pub mod report;
+pub mod stages;
 
 pub use outcome::{Case, Outcome, run};

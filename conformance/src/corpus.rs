@@ -1,0 +1,261 @@
+//! Inputs for every stage: random ones, and the nasty cases among them (collapsed and folded patches, points
+//! at and behind the eye, equal depths, full buffers, every dice rate).
+
+use bytemuck::NoUninit;
+use glam::{DAffine3, DVec3, Vec3};
+use micropoly_core::abi::{
+    CULL, Colour, Control, DRAW_LIMITED, Draw, Frame, Limits, Object, Patch, Sample, Shared, Slot, Surface,
+    Verdict,
+};
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
+use micropoly_core::kernel::bound::bound;
+use micropoly_core::kernel::scan::scan;
+use micropoly_core::known::question;
+use micropoly_core::stage::{Items, Stage};
+
+use crate::stages::Input;
+
+/// Inputs of one stage that a full comparison runs.
+pub const ROUNDS: u64 = 12;
+
+fn words<T: NoUninit>(entries: &[T]) -> Vec<u32> {
+    bytemuck::cast_slice::<T, u8>(entries)
+        .chunks_exact(4)
+        .map(|bytes| u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
+        .collect()
+}
+
+fn empty<T: Shared>(entries: usize) -> Vec<u32> {
+    vec![0; entries * T::LAYOUT.size / 4]
+}
+
+/// Input number `round` of a stage: the same for the same number.
+#[must_use]
+pub fn input(stage: Stage, round: u64) -> Input {
+    let mut random = fastrand::Rng::with_seed(round << 8 | stage as u64);
+    let (items, buffers) = match stage {
+        Stage::Seed => seed(&mut random),
+        Stage::Take => take(&mut random),
+        Stage::Bound => bounds(&mut random),
+        Stage::Scan => scans(&mut random),
+        Stage::Split => splits(&mut random),
+        Stage::Draw => draws(&mut random),
+        Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
+        Stage::KnownAnswers => known(&mut random),
+    };
+    Input { stage, items, buffers }
+}
+
+type Parts = (Items, Vec<Vec<u32>>);
+
+fn control(random: &mut fastrand::Rng) -> Control {
+    let mut any = || random.u32(0..100_000);
+    Control {
+        stack: any(),
+        taken: any(),
+        base: any(),
+        waiting: any(),
+        fresh: any(),
+        peak: any(),
+        low: any(),
+        processed: any(),
+        culled: any(),
+        drawn: any(),
+        limited: any(),
+        overflow: 0,
+    }
+}
+
+fn seed(random: &mut fastrand::Rng) -> Parts {
+    let patches = random.u32(1..3000);
+    let limits = Limits { patches, ..Limits::default() };
+    (Items::Count(patches), vec![words(&[limits]), empty::<Surface>(patches as usize), empty::<Control>(1)])
+}
+
+fn take(random: &mut fastrand::Rng) -> Parts {
+    let limits = Limits { batch: random.u32(1..100_000), ..Limits::default() };
+    (Items::Count(1), vec![words(&[limits]), words(&[control(random)])])
+}
+
+/// A view from near or inside a unit ball around the origin.
+fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
+    let mut axis = || random.f64() * 2.0 - 1.0;
+    let eye = DVec3::new(axis(), axis(), axis()) * 3.0 * axis().abs();
+    let target = DVec3::new(axis(), axis(), axis());
+    let lights = [
+        Light::Directional { to_light: DVec3::new(axis(), axis(), 1.0), colour: Vec3::splat(0.7) },
+        Light::Point { position: DVec3::new(axis(), axis(), axis()) * 4.0, colour: Vec3::new(0.3, 0.4, 0.5) },
+    ];
+    let (near, fov) = ([1.0e-4, 0.05, 0.7][random.usize(0..3)], [20.0, 60.0, 120.0][random.usize(0..3)]);
+    let camera = Camera::look_at(eye, target, DVec3::new(0.1, 0.2, 1.0), fov, near).unwrap_or(Camera {
+        view: DAffine3::IDENTITY,
+        fov,
+        near,
+    });
+    let options = FrameOptions {
+        width: random.u32(1..200),
+        height: random.u32(1..150),
+        bound: [3.0, 8.0, 40.0][random.usize(0..3)],
+        rate: 1 << random.u32(0..=4),
+        levels: random.u32(1..=41),
+        cull_backfaces: random.bool(),
+    };
+    let frame = camera.frame(&options, Vec3::splat(0.1), &lights[..random.usize(0..=2)]);
+    let object = |gloss: u32, specular: f32| {
+        camera.object(DAffine3::IDENTITY, &Material { colour: Vec3::new(0.8, 0.5, 0.2), specular, gloss })
+    };
+    (frame, vec![object(0, 0.0), object(random.u32(0..=10), 0.4)])
+}
+
+/// A patch: smooth, rough, flat, collapsed along an edge, to a line or to a point.
+fn patch(random: &mut fastrand::Rng) -> Patch {
+    let mut patch = Patch { object: random.u32(0..2), ..Patch::default() };
+    let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..8));
+    for k in 0..16 {
+        let mut jitter = || (random.f32() * 2.0 - 1.0) * rough;
+        patch.x[k] = (k / 4) as f32 / 1.5 - 1.0 + jitter();
+        patch.y[k] = (k % 4) as f32 / 1.5 - 1.0 + jitter();
+        patch.z[k] = jitter();
+    }
+    for k in 0..16 {
+        let from = match kind {
+            0 if k < 4 => 0,
+            1 if k % 4 == 3 => 3,
+            2 => k / 4 * 4,
+            3 if random.u8(0..4) == 0 => 0,
+            _ => k,
+        };
+        (patch.x[k], patch.y[k], patch.z[k]) = (patch.x[from], patch.y[from], patch.z[from]);
+    }
+    if kind == 4 {
+        patch.z = [0.25; 16];
+    }
+    patch
+}
+
+fn surface(random: &mut fastrand::Rng, patches: usize, deepest: u32) -> Surface {
+    let mut surface = Surface::root(random.u32(0..patches as u32));
+    for _ in 0..random.u32(0..=deepest) {
+        let along_u = surface.v_level() >= 20 || (surface.u_level() < 20 && random.bool());
+        let halves = if along_u { surface.halves_u() } else { surface.halves_v() };
+        surface = halves[usize::from(random.bool())];
+    }
+    surface
+}
+
+fn scene(random: &mut fastrand::Rng) -> (Frame, Vec<Object>, Vec<Patch>) {
+    let (frame, objects) = view(random);
+    let patches = (0..24).map(|_| patch(random)).collect();
+    (frame, objects, patches)
+}
+
+fn bounds(random: &mut fastrand::Rng) -> Parts {
+    let (frame, objects, patches) = scene(random);
+    let (base, taken) = (random.u32(0..300), random.u32(0..2000));
+    let deepest = [4, 12, 40][random.usize(0..3)];
+    let stack: Vec<Surface> = (0..base + taken).map(|_| surface(random, patches.len(), deepest)).collect();
+    let control = Control { base, taken, stack: base + taken, ..Control::default() };
+    let room = (taken + random.u32(1..100)) as usize;
+    let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
+    let buffers = vec![
+        words(&[frame]),
+        words(&objects),
+        words(&patches),
+        words(&[control]),
+        words(&stack),
+        empty::<Surface>(room),
+        empty::<Verdict>(room),
+    ];
+    (Items::Taken, buffers)
+}
+
+/// A batch of surfaces with verdicts, and counts before it.
+fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
+    let taken = random.u32(1..3000);
+    let surfaces = (0..taken).map(|_| surface(random, 24, 18)).collect();
+    let only = random.u32(0..8);
+    let code = |random: &mut fastrand::Rng| {
+        if only <= DRAW_LIMITED { only } else { random.u32(CULL..=DRAW_LIMITED) }
+    };
+    let verdicts = (0..taken)
+        .map(|_| Verdict { code: code(random), columns: random.u32(..), rows: random.u32(..) })
+        .collect();
+    let before = Control { base: random.u32(0..1000), taken, waiting: random.u32(0..500), ..control(random) };
+    (Control { fresh: 0, ..before }, surfaces, verdicts)
+}
+
+fn scans(random: &mut fastrand::Rng) -> Parts {
+    let (control, _, verdicts) = batch(random);
+    // Too little room now and then.
+    let limits =
+        Limits { stack_room: random.u32(500..8000), draw_room: random.u32(500..6000), ..Limits::default() };
+    let slots = empty::<Slot>(verdicts.len());
+    (Items::Taken, vec![words(&[limits]), words(&verdicts), slots, words(&[control])])
+}
+
+fn splits(random: &mut fastrand::Rng) -> Parts {
+    let (control, surfaces, verdicts) = batch(random);
+    let (stack_room, draw_room) = (control.base + 2 * control.taken, control.waiting + control.taken);
+    let mut slots = vec![Slot::default(); verdicts.len()];
+    let full = random.u8(0..6) == 0;
+    let room = if full { 1 } else { stack_room };
+    let control = scan(control, &verdicts, &mut slots, room, draw_room);
+    let buffers = vec![
+        words(&[control]),
+        words(&surfaces),
+        words(&verdicts),
+        words(&slots),
+        empty::<Surface>(stack_room as usize),
+        empty::<Draw>(draw_room as usize),
+    ];
+    (Items::Taken, buffers)
+}
+
+fn draws(random: &mut fastrand::Rng) -> Parts {
+    let (mut frame, objects, patches) = scene(random);
+    let deepest = [3, 8, 14][random.usize(0..3)];
+    frame.levels = 1; // everything that is not culled is drawn, however large
+    let mut draws = Vec::new();
+    for _ in 0..400 {
+        let surface = surface(random, patches.len(), deepest);
+        let patch = &patches[surface.patch_id as usize];
+        let verdict = bound(&frame, patch, &objects[patch.object as usize], surface);
+        // Twice the same surface now and then: equal depths, equal identities.
+        for _ in 0..random.usize(1..=2) {
+            if verdict.code != CULL && draws.len() < 60 {
+                draws.push(Draw::new(surface, verdict));
+            }
+        }
+    }
+    let waiting = random.u32(0..=draws.len() as u32);
+    let control = Control { waiting, fresh: draws.len() as u32 - waiting, ..Control::default() };
+    draws.push(Draw::default());
+    let Frame { width, height, .. } = frame;
+    let pixels = (width * height) as usize;
+    let before: Vec<Sample> = (0..pixels).map(|_| sample(random)).collect();
+    let buffers = vec![
+        words(&[frame]),
+        words(&objects),
+        words(&patches),
+        words(&[control]),
+        words(&draws),
+        words(&before),
+        empty::<Colour>(pixels),
+    ];
+    (Items::Image { width, height }, buffers)
+}
+
+/// Nothing, or something that was drawn before at any depth.
+fn sample(random: &mut fastrand::Rng) -> Sample {
+    match random.u8(0..3) {
+        0 => Sample { depth: (random.f32() * 2.0).to_bits(), patch_id: random.u32(0..24), u: 77, v: 99 },
+        _ => Sample::default(),
+    }
+}
+
+fn known(random: &mut fastrand::Rng) -> Parts {
+    let first = random.u32(0..30_000);
+    let questions: Vec<_> = (first..first + 5000).map(question).collect();
+    let frame = words(&[Frame::default()]);
+    (Items::Count(5000), vec![frame, words(&questions), empty::<u32>(5000)])
+}

@@ -1,0 +1,134 @@
+//! A device against a reference: every stage alone, then whole images and counts.
+
+use micropoly_core::abi::Colour;
+use micropoly_core::backend::Device;
+use micropoly_core::render::FramePlan;
+use micropoly_core::stage::Stage;
+use serde::Serialize;
+
+use crate::corpus;
+use crate::outcome::{Case, Outcome, run};
+use crate::stages::{Difference, first_difference, run_stage};
+
+/// How one stage fared.
+#[derive(Clone, Debug, Serialize)]
+pub struct StageReport {
+    /// Name of the stage.
+    pub stage: &'static str,
+    /// Inputs that were run.
+    pub inputs: u64,
+    /// The first difference, if there is any.
+    pub difference: Option<Difference>,
+    /// What the device said when it failed.
+    pub error: Option<String>,
+}
+
+/// How one case fared with one batch size.
+#[derive(Clone, Debug, Serialize)]
+pub struct CaseReport {
+    /// Name of the case.
+    pub case: String,
+    /// Surfaces a batch.
+    pub batch: u32,
+    /// What the reference made of it.
+    pub expected: Outcome,
+    /// What the device made of it; `None` if it failed.
+    pub found: Option<Outcome>,
+    /// What the device said when it failed.
+    pub error: Option<String>,
+}
+
+/// How one device fared.
+#[derive(Clone, Debug, Serialize)]
+pub struct DeviceReport {
+    /// Name of the backend.
+    pub backend: String,
+    /// Name of the device.
+    pub device: String,
+    /// Each stage alone.
+    pub stages: Vec<StageReport>,
+    /// Whole images and counts.
+    pub cases: Vec<CaseReport>,
+}
+
+impl StageReport {
+    /// Did the device give the reference's bits?
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.difference.is_none() && self.error.is_none()
+    }
+}
+
+impl CaseReport {
+    /// Did the device give the reference's bits?
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.found.as_ref() == Some(&self.expected)
+    }
+}
+
+impl DeviceReport {
+    /// Did the device give the reference's bits everywhere?
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.stages.iter().all(StageReport::agrees) && self.cases.iter().all(CaseReport::agrees)
+    }
+}
+
+/// Runs a stage on both devices with `inputs` inputs of the corpus, up to the first difference.
+pub fn check_stage<R: Device, D: Device>(
+    reference: &mut R,
+    device: &mut D,
+    stage: Stage,
+    inputs: u64,
+) -> StageReport {
+    let mut report = StageReport { stage: stage.name(), inputs, difference: None, error: None };
+    for round in 0..inputs {
+        let input = corpus::input(stage, round);
+        let expected = match run_stage(reference, &input) {
+            Ok(outputs) => outputs,
+            Err(error) => return StageReport { error: Some(format!("reference: {error}")), ..report },
+        };
+        match run_stage(device, &input) {
+            Ok(found) => report.difference = first_difference(stage, &expected, &found),
+            Err(error) => report.error = Some(error.to_string()),
+        }
+        if !report.agrees() {
+            report.inputs = round + 1;
+            break;
+        }
+    }
+    report
+}
+
+/// Renders a case on both devices.
+///
+/// # Errors
+/// What the reference reports; what the device reports is in the report.
+pub fn check_case<R: Device, D: Device>(
+    reference: &mut R,
+    device: &mut D,
+    case: &Case,
+    batch: u32,
+) -> Result<CaseReport, R::Error> {
+    let expected = run(reference, case, batch)?;
+    let (found, error) = match run(device, case, batch) {
+        Ok(outcome) => (Some(outcome), None),
+        Err(error) => (None, Some(error.to_string())),
+    };
+    Ok(CaseReport { case: case.name.clone(), batch, expected, found, error })
+}
+
+/// All colours of a case, row after row: for pictures of what differs.
+///
+/// # Errors
+/// What the plan or the device reports.
+pub fn colours<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Vec<Colour>, D::Error> {
+    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+    let plan = FramePlan::new(case.frame, count(case.patches.len()), count(case.objects.len()), batch)?;
+    let buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    plan.run(device, &buffers, |_| {})?;
+    let mut colours = vec![Colour::default(); plan.sizes().pixels() as usize];
+    device.read(&buffers.colours, 0, &mut colours)?;
+    Ok(colours)
+}

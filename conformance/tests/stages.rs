@@ -1,0 +1,46 @@
+//! The stage comparison itself: it accepts equal devices, runs every stage over inputs that matter, and
+//! finds a single wrong bit.
+
+use micropoly_backend_cpu::CpuDevice;
+use micropoly_conformance::corpus::{ROUNDS, input};
+use micropoly_conformance::report::check_stage;
+use micropoly_conformance::stages::{first_difference, run_stage};
+use micropoly_core::stage::Stage;
+
+fn cpu(threads: usize) -> CpuDevice {
+    CpuDevice::new(threads).expect("threads")
+}
+
+#[test]
+fn every_stage_gives_the_same_bits_for_any_number_of_threads() {
+    for stage in Stage::ALL {
+        let report = check_stage(&mut cpu(1), &mut cpu(3), stage, ROUNDS);
+        assert!(report.agrees(), "{report:?}");
+    }
+}
+
+#[test]
+fn inputs_make_every_stage_write_something() {
+    for stage in Stage::ALL {
+        let wrote = (0..ROUNDS).filter(|&round| {
+            let input = input(stage, round);
+            let outputs = run_stage(&mut cpu(1), &input).expect("runs");
+            outputs
+                .iter()
+                .zip(&input.buffers)
+                .any(|(after, before)| after.as_ref().is_some_and(|a| a != before))
+        });
+        assert!(wrote.count() as u64 > ROUNDS / 2, "{stage:?}");
+    }
+}
+
+#[test]
+fn a_single_wrong_bit_is_found_and_named() {
+    let input = input(Stage::Bound, 1);
+    let expected = run_stage(&mut cpu(1), &input).expect("runs");
+    let mut found = expected.clone();
+    let verdicts = found[6].as_mut().expect("an output");
+    verdicts[3 * 7 + 1] ^= 1;
+    let difference = first_difference(Stage::Bound, &expected, &found).expect("a difference");
+    assert_eq!((difference.buffer, difference.item, difference.field.as_str()), ("verdicts", 7, "columns"));
+}
