@@ -1,15 +1,17 @@
-//! Choice of a backend: what was built in, what can render, and what to say if it cannot.
+//! Choice of a backend: what was built in, what is there, and what to say if it is not.
 
+use micropoly_core::backend::Device;
 use micropoly_core::render::Counts;
 
+use crate::devices::{DeviceEntry, Job, devices_of, find, with_device};
 use crate::error::{Error, Result};
-use crate::render::{RenderOptions, Rendering};
+use crate::render::{RenderOptions, Rendering, render_on};
 use crate::scene::Scene;
 
 /// What renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
-    /// The best that is there.
+    /// The first GPU that is there, else the CPU.
     #[default]
     Auto,
     /// The CPU, with rayon.
@@ -21,6 +23,9 @@ pub enum Backend {
 }
 
 impl Backend {
+    /// All backends, the CPU first.
+    pub const ALL: [Self; 3] = [Self::Cpu, Self::Wgpu, Self::Ocl];
+
     /// Its name on the command line and in statistics.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -36,32 +41,49 @@ impl Backend {
     #[must_use]
     pub const fn is_built(self) -> bool {
         match self {
-            Self::Auto | Self::Cpu => cfg!(feature = "cpu"),
+            Self::Auto => true,
+            Self::Cpu => cfg!(feature = "cpu"),
             Self::Wgpu => cfg!(feature = "wgpu"),
             Self::Ocl => cfg!(feature = "ocl"),
         }
     }
 
-    /// The backend that will render.
-    ///
-    /// # Errors
-    /// [`Error::Backend`] if it is not there.
-    pub fn resolve(self) -> Result<Self> {
+    /// What a user lacks who has no device for it.
+    #[must_use]
+    pub const fn driver_help(self) -> &'static str {
         match self {
-            Self::Auto | Self::Cpu if self.is_built() => Ok(Self::Cpu),
-            _ => Err(self.missing()),
+            Self::Wgpu => {
+                "no driver for Vulkan, Metal or Direct3D 12 was found: install the GPU maker's driver, \
+                 or on Debian mesa-vulkan-drivers and libvulkan1"
+            }
+            Self::Ocl => {
+                "no OpenCL driver was found: install the GPU maker's driver, or on Debian \
+                 pocl-opencl-icd and ocl-icd-libopencl1"
+            }
+            Self::Auto | Self::Cpu => "this program was built without it",
         }
     }
 
-    fn missing(self) -> Error {
-        let why = match self {
-            Self::Wgpu | Self::Ocl if self.is_built() => "it cannot render yet",
-            _ => "this program was built without it",
-        };
-        let remedy = if Self::Cpu.is_built() {
-            "use --backend cpu"
-        } else {
-            "build with the feature `cpu`, which is on by default"
+    /// The device that will render.
+    ///
+    /// # Errors
+    /// [`Error::Backend`] if there is none.
+    pub fn choose(self, wanted: Option<&str>) -> Result<DeviceEntry> {
+        if self != Self::Auto {
+            return find(self, wanted);
+        }
+        let gpus =
+            [Self::Wgpu, Self::Ocl].into_iter().filter_map(|backend| devices_of(backend).ok()).flatten();
+        match gpus.into_iter().find(|entry| entry.is_gpu) {
+            Some(entry) => Ok(entry),
+            None => find(Self::Cpu, wanted),
+        }
+    }
+
+    pub(crate) fn unavailable(self, why: String) -> Error {
+        let remedy = match self {
+            _ if Self::Cpu.is_built() => "use --backend cpu",
+            _ => "build with the feature `cpu`, which is on by default",
         };
         Error::Backend { backend: self.name(), why, remedy }
     }
@@ -71,18 +93,22 @@ impl Backend {
 ///
 /// # Errors
 /// [`Error::Backend`], [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
-pub fn render(scene: &Scene, options: &RenderOptions, progress: impl FnMut(&Counts)) -> Result<Rendering> {
-    match options.backend.resolve()? {
-        #[cfg(feature = "cpu")]
-        Backend::Cpu => {
-            let device = micropoly_backend_cpu::CpuDevice::new(options.threads)
-                .map_err(|error| Error::Device(error.to_string()))?;
-            let name = device.name();
-            crate::render::render_on(device, name, scene, options, progress)
-        }
-        backend => {
-            let _ = (scene, progress);
-            Err(backend.missing())
-        }
+pub fn render<F: FnMut(&Counts)>(scene: &Scene, options: &RenderOptions, progress: F) -> Result<Rendering> {
+    let entry = options.backend.choose(options.device.as_deref())?;
+    with_device(&entry, options.threads, Render { scene, options, progress })?
+}
+
+/// Rendering a scene, as a job for any device.
+struct Render<'a, F> {
+    scene: &'a Scene,
+    options: &'a RenderOptions,
+    progress: F,
+}
+
+impl<F: FnMut(&Counts)> Job for Render<'_, F> {
+    type Output = Result<Rendering>;
+
+    fn run<D: Device>(self, device: D, name: String) -> Result<Rendering> {
+        render_on(device, name, self.scene, self.options, self.progress)
     }
 }

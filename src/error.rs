@@ -52,7 +52,7 @@ pub enum Error {
         /// Which backend.
         backend: &'static str,
         /// Why not.
-        why: &'static str,
+        why: String,
         /// What to do about it.
         remedy: &'static str,
     },
@@ -74,7 +74,9 @@ impl Error {
         Self::Format { path: path.to_owned(), line, problem: problem.into(), remedy: remedy.into() }
     }
 
-    pub(crate) fn scene(problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+    /// An error that no single file is to blame for.
+    #[must_use]
+    pub fn scene(problem: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self::Scene { problem: problem.into(), remedy: remedy.into() }
     }
 }

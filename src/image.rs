@@ -46,6 +46,16 @@ impl Image {
     }
 }
 
+impl Image {
+    /// Linear colours as an image before a black background.
+    #[must_use]
+    pub fn from_colours(width: u32, height: u32, colours: &[Colour]) -> Self {
+        let mut rgb = Vec::with_capacity(colours.len() * 3);
+        Encoder::new(Vec3::ZERO).append(colours, &mut rgb);
+        Self { width, height, rgb }
+    }
+}
+
 /// Steps of the table from linear values to sRGB: fine enough for the steepest part of the curve, where
 /// one of 255 levels is 20 steps wide.
 const STEPS: usize = 1 << 16;

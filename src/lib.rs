@@ -17,6 +17,7 @@
 
 mod backend;
 pub mod bpt;
+pub mod devices;
 pub mod error;
 pub mod generate;
 mod image;

@@ -33,10 +33,12 @@ impl Default for Batch {
 }
 
 /// Everything that can be chosen about a rendering.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderOptions {
     /// What renders. The image does not depend on it.
     pub backend: Backend,
+    /// Number or part of the name of a device of the backend; its first one if there is nothing here.
+    pub device: Option<String>,
     /// Image size, bound, dice rate, depth.
     pub frame: FrameOptions,
     /// Batch size or memory budget. The image does not depend on it.

@@ -70,7 +70,7 @@ impl Scene {
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("bpt") => Self::around(path, bpt::load(path)?),
+            Some("bpt") => Self::around(path.display().to_string(), bpt::load(path)?),
             Some("toml") => scene_file::load(path),
             _ if !path.exists() => {
                 let source = std::io::Error::from(std::io::ErrorKind::NotFound);
@@ -84,7 +84,10 @@ impl Scene {
     }
 
     /// A scene of one grey object, seen from the front, the right and above; z is up.
-    fn around(path: &Path, patches: Vec<BezierPatch>) -> Result<Self> {
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the patches lie too far out to be seen at all.
+    pub fn around(name: String, patches: Vec<BezierPatch>) -> Result<Self> {
         let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5 };
         let objects = vec![SceneObject { patches, to_world: DAffine3::IDENTITY, material }];
         let (low, high) = bounds_of(&objects);
@@ -95,7 +98,7 @@ impl Scene {
             .ok_or_else(|| Error::scene("the patches lie too far out", "scale them down"))?;
         let to_light = camera.view.inverse().transform_vector3(DVec3::new(-0.5, 0.8, 0.9));
         Ok(Self {
-            name: path.display().to_string(),
+            name,
             camera,
             background: Vec3::splat(0.8),
             ambient: Vec3::splat(0.15),

@@ -22,6 +22,10 @@ pub(crate) enum Command {
     Render(RenderArguments),
     /// Say what is in a scene and how much memory a frame of it can need.
     Info(InfoArguments),
+    /// List every device of every backend, with driver and limits.
+    Devices,
+    /// Find out, device by device and stage by stage, whether all devices give the same bits.
+    Conform(ConformArguments),
 }
 
 #[derive(Debug, Args)]
@@ -42,11 +46,15 @@ pub(crate) struct RenderArguments {
     /// What to render on. The image does not depend on it.
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     backend: BackendChoice,
+    /// Number or part of the name of a device of the backend (see `micropoly devices`).
+    #[arg(long, value_name = "N|NAME")]
+    device: Option<String>,
 }
 
 impl RenderArguments {
     pub(crate) fn options(&self) -> RenderOptions {
-        RenderOptions { backend: self.backend.into(), ..self.frame.options() }
+        let device = self.device.clone();
+        RenderOptions { backend: self.backend.into(), device, ..self.frame.options() }
     }
 }
 
@@ -56,6 +64,33 @@ pub(crate) struct InfoArguments {
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ConformArguments {
+    /// Scenes to render besides the built-in ones.
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Which devices to compare with the CPU: `all`, or those of one backend, which must then have some.
+    #[arg(long, value_enum, default_value_t = Compared::All)]
+    pub(crate) backend: Compared,
+    /// Write the report as JSON to this file; - writes to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Write pictures of what differs (expected, actual, difference) to this folder.
+    #[arg(long, value_name = "FOLDER", default_value = ".")]
+    pub(crate) pictures: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Compared {
+    /// Every device that is found.
+    All,
+    /// The CPU, with another number of threads.
+    Cpu,
+    /// GPUs through wgpu.
+    Wgpu,
+    /// OpenCL devices.
+    Ocl,
 }
 
 /// What a frame is to be like, and how it is worked on.

@@ -1,6 +1,8 @@
 //! The command-line program: one file a command.
 
 mod args;
+mod conform;
+mod devices;
 mod info;
 mod progress;
 mod render;
@@ -21,6 +23,8 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
+        Command::Devices => devices::run(),
+        Command::Conform(arguments) => conform::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

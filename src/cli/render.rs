@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use micropoly::stats::Stats;
-use micropoly::{Error, Result, Scene, Seconds};
+use micropoly::{Backend, Error, RenderOptions, Result, Scene, Seconds};
 
 use super::args::RenderArguments;
 use super::progress::Progress;
@@ -14,7 +14,11 @@ use super::summary;
 pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let start = Instant::now();
     let options = arguments.options();
-    let backend = options.backend.resolve()?;
+    let entry = options.backend.choose(options.device.as_deref())?;
+    if options.backend == Backend::Auto && entry.backend == Backend::Cpu && Backend::Wgpu.is_built() {
+        eprintln!("note: no GPU was found, so the CPU renders");
+    }
+    let options = RenderOptions { backend: entry.backend, device: Some(entry.index.to_string()), ..options };
     check_folder(&arguments.output)?;
     let scene = Scene::load(&arguments.scene)?;
     let load = start.elapsed().as_secs_f64();
@@ -28,9 +32,9 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let encode = encoding.elapsed().as_secs_f64();
     let total = start.elapsed().as_secs_f64();
     let seconds = Seconds { load, encode, total, ..rendering.seconds };
-    let stats = Stats::new(&scene.name, backend.name(), &options, &rendering, seconds);
+    let stats = Stats::new(&scene.name, entry.backend.name(), &options, &rendering, seconds);
     if let Some(path) = &arguments.stats {
-        write_stats(path, &stats)?;
+        write_json(path, &stats)?;
     }
     eprint!("{}", summary::of(&stats, &arguments.output));
     Ok(())
@@ -48,9 +52,10 @@ fn check_folder(output: &Path) -> Result<()> {
     }
 }
 
-fn write_stats(path: &Path, stats: &Stats) -> Result<()> {
+/// Writes anything as JSON to a file, or to standard output for `-`.
+pub(super) fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<()> {
     let failed = |why: String| Error::Write { path: path.to_owned(), why };
-    let mut json = serde_json::to_string_pretty(stats).map_err(|error| failed(error.to_string()))?;
+    let mut json = serde_json::to_string_pretty(value).map_err(|error| failed(error.to_string()))?;
     json.push('\n');
     let written = if path == Path::new("-") {
         std::io::stdout().write_all(json.as_bytes())

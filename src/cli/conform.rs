@@ -1,0 +1,194 @@
+//! `micropoly conform`: every device against the CPU with one thread.
+
+use std::path::Path;
+
+use micropoly::core::backend::Device;
+use micropoly::core::stage::Stage;
+use micropoly::devices::{DeviceEntry, Job, devices_of, with_device};
+use micropoly::{Backend, Error, FrameOptions, Image, Result, Scene, bpt, scene_file};
+use micropoly_conformance::report::{CaseReport, DeviceReport, check_case, check_stage, colours};
+use micropoly_conformance::{Case, corpus};
+
+use super::args::{Compared, ConformArguments};
+use super::render::write_json;
+
+/// Image sizes of every scene.
+const SIZES: [(u32, u32); 3] = [(160, 90), (640, 360), (1280, 720)];
+/// Surfaces a batch.
+const BATCHES: [u32; 3] = [300, 4096, 50_000];
+
+pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
+    let entries = compared(arguments.backend)?;
+    let cases = cases(&arguments.scenes)?;
+    let mut reports = Vec::new();
+    for entry in &entries {
+        println!("\n{} {}  {}", entry.backend.name(), entry.index, entry.name);
+        let job = Conform { entry, cases: &cases, pictures: &arguments.pictures };
+        reports.push(with_device(entry, 3, job)??);
+    }
+    if let Some(path) = &arguments.json {
+        write_json(path, &reports)?;
+    }
+    let wrong = reports.iter().filter(|report| !report.agrees()).count();
+    println!("\n{} of {} devices agree with the CPU", reports.len() - wrong, reports.len());
+    if wrong > 0 {
+        let problem = format!("{wrong} of {} devices give other bits than the CPU", reports.len());
+        return Err(Error::scene(problem, "see the first difference of each above"));
+    }
+    Ok(())
+}
+
+/// The devices that are to be compared.
+fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
+    let only = match choice {
+        Compared::All => None,
+        Compared::Cpu => Some(Backend::Cpu),
+        Compared::Wgpu => Some(Backend::Wgpu),
+        Compared::Ocl => Some(Backend::Ocl),
+    };
+    let mut all = Vec::new();
+    for backend in Backend::ALL {
+        if only.is_some_and(|only| only != backend) {
+            continue;
+        }
+        match devices_of(backend) {
+            Ok(entries) => all.extend(entries),
+            Err(_) if only.is_some() => return Err(backend.choose(None).expect_err("there is none")),
+            Err(missing) => println!("{}: {}", backend.name(), missing.why),
+        }
+    }
+    Ok(all)
+}
+
+/// The built-in scenes and those that the user names, at every size.
+fn cases(files: &[std::path::PathBuf]) -> Result<Vec<Case>> {
+    let built_in = |name: &str, text: &str| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
+    let teapot = bpt::parse_bytes("teapot.bpt".as_ref(), include_bytes!("../../scenes/teapot.bpt").to_vec())?;
+    let mut scenes = vec![
+        Scene::around("teapot".to_owned(), teapot)?,
+        built_in("eyesplit", include_str!("../../scenes/eyesplit.toml"))?,
+        built_in("spheres", include_str!("../../scenes/spheres.toml"))?,
+    ];
+    for file in files {
+        scenes.push(Scene::load(file)?);
+    }
+    let mut cases = Vec::new();
+    for (scene, (width, height)) in scenes.iter().flat_map(|scene| SIZES.map(|size| (scene, size))) {
+        let options = FrameOptions { width, height, ..FrameOptions::default() };
+        let device = scene.for_device(&options)?;
+        cases.push(Case {
+            name: format!("{} {width}x{height}", scene.name),
+            frame: device.frame,
+            objects: device.objects,
+            patches: device.patches,
+        });
+    }
+    Ok(cases)
+}
+
+/// Comparing one device with the CPU.
+struct Conform<'a> {
+    entry: &'a DeviceEntry,
+    cases: &'a [Case],
+    pictures: &'a Path,
+}
+
+impl Job for Conform<'_> {
+    type Output = Result<DeviceReport>;
+
+    fn run<D: Device>(self, device: D, name: String) -> Result<DeviceReport> {
+        let reference = Backend::Cpu.choose(None)?;
+        with_device(&reference, 1, AgainstReference { conform: self, device, name })?
+    }
+}
+
+/// The same, with the reference open.
+struct AgainstReference<'a, D> {
+    conform: Conform<'a>,
+    device: D,
+    name: String,
+}
+
+impl<D: Device> Job for AgainstReference<'_, D> {
+    type Output = Result<DeviceReport>;
+
+    fn run<R: Device>(mut self, mut reference: R, _: String) -> Result<DeviceReport> {
+        let mut report = DeviceReport {
+            backend: self.conform.entry.backend.name().to_owned(),
+            device: self.name.clone(),
+            stages: Vec::new(),
+            cases: Vec::new(),
+        };
+        for stage in Stage::ALL {
+            let checked = check_stage(&mut reference, &mut self.device, stage, corpus::ROUNDS);
+            print_row(stage.name(), &format!("{} inputs", checked.inputs), checked.agrees());
+            if let Some(difference) = &checked.difference {
+                println!("      {difference}");
+            }
+            print_error(checked.error.as_deref());
+            report.stages.push(checked);
+        }
+        for case in self.conform.cases {
+            for batch in BATCHES {
+                let checked = check_case(&mut reference, &mut self.device, case, batch)
+                    .map_err(|error| Error::Device(error.to_string()))?;
+                print_case(&checked);
+                if !checked.agrees() {
+                    self.picture(&mut reference, case, batch)?;
+                }
+                report.cases.push(checked);
+            }
+        }
+        Ok(report)
+    }
+}
+
+impl<D: Device> AgainstReference<'_, D> {
+    /// Writes expected, actual and difference of a case side by side.
+    fn picture<R: Device>(&mut self, reference: &mut R, case: &Case, batch: u32) -> Result<()> {
+        let (width, height) = (case.frame.width, case.frame.height);
+        let (Ok(expected), Ok(actual)) =
+            (colours(reference, case, batch), colours(&mut self.device, case, batch))
+        else {
+            return Ok(());
+        };
+        let images = [expected, actual].map(|all| Image::from_colours(width, height, &all));
+        let path = self.conform.pictures.join(format!("{}.png", case.name.replace([' ', '/'], "-")));
+        side_by_side(&images[0], &images[1]).save_png(&path)?;
+        println!("      expected | actual | difference: {}", path.display());
+        Ok(())
+    }
+}
+
+/// Both images and, white, the pixels in which they differ.
+fn side_by_side(expected: &Image, actual: &Image) -> Image {
+    let stride = expected.width as usize * 3;
+    let rows = expected.rgb.chunks_exact(stride).zip(actual.rgb.chunks_exact(stride));
+    let rgb = rows
+        .flat_map(|(expected, actual)| {
+            let pixels = expected.chunks_exact(3).zip(actual.chunks_exact(3));
+            let difference = pixels.flat_map(|(a, b)| [if a == b { 0 } else { 255 }; 3]);
+            expected.iter().chain(actual).copied().chain(difference).collect::<Vec<u8>>()
+        })
+        .collect();
+    Image { width: expected.width * 3, height: expected.height, rgb }
+}
+
+fn print_case(report: &CaseReport) {
+    let what = format!("batch {}, {} surfaces", report.batch, report.expected.processed);
+    print_row(&report.case, &what, report.agrees());
+    if let Some(found) = report.found.as_ref().filter(|found| **found != report.expected) {
+        println!("      expected {:?}\n      found    {found:?}", report.expected);
+    }
+    print_error(report.error.as_deref());
+}
+
+fn print_row(name: &str, what: &str, agrees: bool) {
+    println!("  {name:<24} {what:<36} {}", if agrees { "same bits" } else { "DIFFERS" });
+}
+
+fn print_error(error: Option<&str>) {
+    if let Some(error) = error {
+        println!("      {error}");
+    }
+}

@@ -1,0 +1,131 @@
+//! Every device of every backend that was built in, and opening one of them.
+
+use micropoly_core::backend::Device;
+
+use crate::backend::Backend;
+use crate::error::{Error, Result};
+
+/// A device that may render.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeviceEntry {
+    /// Which backend it belongs to.
+    pub backend: Backend,
+    /// Its number within the backend.
+    pub index: usize,
+    /// Its name.
+    pub name: String,
+    /// Is it a GPU rather than a CPU?
+    pub is_gpu: bool,
+    /// Driver and limits, as pairs of name and value.
+    pub details: Vec<(&'static str, String)>,
+}
+
+/// A backend without a device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// Which backend.
+    pub backend: Backend,
+    /// Why, and what to do about it.
+    pub why: String,
+}
+
+/// Something to do with a device of any kind.
+pub trait Job {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn run<D: Device>(self, device: D, name: String) -> Self::Output;
+}
+
+/// All devices of one backend.
+///
+/// # Errors
+/// [`Missing`] if there are none.
+pub fn devices_of(backend: Backend) -> std::result::Result<Vec<DeviceEntry>, Missing> {
+    let missing = |why: &str| Err(Missing { backend, why: why.to_owned() });
+    match backend {
+        #[cfg(feature = "cpu")]
+        Backend::Cpu => Ok(vec![cpu_entry()]),
+        #[cfg(feature = "wgpu")]
+        Backend::Wgpu => found(backend, micropoly_backend_wgpu::devices().iter().map(wgpu_entry).collect()),
+        #[cfg(feature = "ocl")]
+        Backend::Ocl => match micropoly_backend_ocl::devices() {
+            Ok(all) => found(backend, all.iter().enumerate().map(ocl_entry).collect()),
+            Err(error) => missing(&error.to_string()),
+        },
+        _ => missing("this program was built without it"),
+    }
+}
+
+#[cfg(any(feature = "wgpu", feature = "ocl"))]
+fn found(backend: Backend, all: Vec<DeviceEntry>) -> std::result::Result<Vec<DeviceEntry>, Missing> {
+    if all.is_empty() {
+        return Err(Missing { backend, why: backend.driver_help().to_owned() });
+    }
+    Ok(all)
+}
+
+#[cfg(feature = "cpu")]
+fn cpu_entry() -> DeviceEntry {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    DeviceEntry {
+        backend: Backend::Cpu,
+        index: 0,
+        name: format!("CPU ({})", std::env::consts::ARCH),
+        is_gpu: false,
+        details: vec![("cores", cores.to_string())],
+    }
+}
+
+/// The device of a backend that a user means by a number or a part of a name.
+///
+/// # Errors
+/// [`Error::Backend`] if the backend has no device, [`Error::Scene`] if none of them is meant.
+pub fn find(backend: Backend, wanted: Option<&str>) -> Result<DeviceEntry> {
+    let all = devices_of(backend).map_err(|missing| backend.unavailable(missing.why))?;
+    let Some(wanted) = wanted else { return Ok(all.into_iter().next().expect("not empty")) };
+    let number = wanted.parse::<usize>().ok();
+    let lower = wanted.to_lowercase();
+    let meant = |entry: &&DeviceEntry| match number {
+        Some(number) => entry.index == number,
+        None => entry.name.to_lowercase().contains(&lower),
+    };
+    all.iter().find(meant).cloned().ok_or_else(|| {
+        let names: Vec<String> = all.iter().map(|entry| format!("{} {}", entry.index, entry.name)).collect();
+        Error::scene(
+            format!("backend {} has no device `{wanted}`", backend.name()),
+            format!("choose one of: {}", names.join(", ")),
+        )
+    })
+}
+
+/// Opens a device and does something with it; `threads` matter to the CPU only.
+///
+/// # Errors
+/// [`Error::Device`] if it cannot be opened or is refused.
+pub fn with_device<J: Job>(entry: &DeviceEntry, threads: usize, job: J) -> Result<J::Output> {
+    let _ = threads;
+    match entry.backend {
+        #[cfg(feature = "cpu")]
+        Backend::Cpu => {
+            let device = micropoly_backend_cpu::CpuDevice::new(threads)
+                .map_err(|error| Error::Device(error.to_string()))?;
+            Ok(job.run(device, entry.name.clone()))
+        }
+        #[cfg(feature = "wgpu")]
+        Backend::Wgpu => {
+            let device = micropoly_backend_wgpu::WgpuDevice::open(entry.index, None)
+                .map_err(|error| Error::Device(error.to_string()))?;
+            Ok(job.run(device, entry.name.clone()))
+        }
+        #[cfg(feature = "ocl")]
+        Backend::Ocl => {
+            let options = micropoly_backend_ocl::OpenOptions::default();
+            let device = micropoly_backend_ocl::OclDevice::open(entry.index, &options)
+                .map_err(|error| Error::Device(error.to_string()))?;
+            Ok(job.run(device, entry.name.clone()))
+        }
+        backend => Err(backend.unavailable("this program was built without it".to_owned())),
+    }
+}
