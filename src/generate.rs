@@ -12,7 +12,7 @@ pub enum Generator {
     Spheres,
     /// Thin curved ribbons that stand on a ball, 1 patch each.
     Hair,
-    /// Fluted columns on a grid, 13 patches each.
+    /// Round columns on a grid, 13 patches each.
     Columns,
     /// Blocks on a street grid, 5 patches each.
     City,

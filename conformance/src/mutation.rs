@@ -1,5 +1,11 @@
 //! Do the comparisons bite? Kernels with one operator changed must make them fail.
 
+use micropoly_core::backend::Device;
+use micropoly_core::stage::Stage;
+
+use crate::corpus::ROUNDS;
+use crate::report::check_stage;
+
 /// Pairs of texts of which one is put in the place of the other. Both compile wherever the other does.
 const SWAPS: [(&str, &str); 10] = [
     ("add(", "sub("),
@@ -59,4 +65,48 @@ fn place(code: &str, text: &str) -> Option<usize> {
         let before = code[..at].chars().next_back();
         text.starts_with(' ') || !before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '.')
     })
+}
+
+/// What became of the mutants of one kernel file.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Name of the file.
+    pub file: String,
+    /// Mutants that were run.
+    pub run: usize,
+    /// Mutants that a comparison noticed, or that the device or its compiler refused.
+    pub killed: usize,
+    /// Line and change of those that nothing noticed.
+    pub survivors: Vec<(usize, &'static str, &'static str)>,
+}
+
+/// Runs up to `most` mutants of a file, spread over it, against the whole corpus of stages.
+///
+/// `open` opens the device with this source in the place of the file's own; a device that does not open has
+/// noticed.
+pub fn tally<R: Device, D: Device, E>(
+    reference: &mut R,
+    file: &str,
+    source: &str,
+    most: usize,
+    mut open: impl FnMut(&str) -> Result<D, E>,
+) -> Tally {
+    let all = mutants(source);
+    let step = all.len().div_ceil(most.max(1)).max(1);
+    let mut tally = Tally { file: file.to_owned(), ..Tally::default() };
+    for mutant in all.iter().step_by(step) {
+        tally.run += 1;
+        let noticed = match open(&mutant.source) {
+            Err(_) => true,
+            Ok(mut device) => Stage::ALL
+                .into_iter()
+                .any(|stage| !check_stage(reference, &mut device, stage, ROUNDS).agrees()),
+        };
+        if noticed {
+            tally.killed += 1;
+        } else {
+            tally.survivors.push((mutant.line, mutant.change.0, mutant.change.1));
+        }
+    }
+    tally
 }

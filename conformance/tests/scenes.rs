@@ -1,23 +1,21 @@
-//! Every scene of the repository on every backend present: the same bits as the snapshot.
+//! Every scene of the repository at three sizes with three batch sizes on every device of every backend: the
+//! same bits as the snapshot, of which there is one for all.
 //!
 //! `INSTA_UPDATE=always cargo test -p micropoly-conformance` accepts new snapshots after a change that is
 //! meant to change images or counts.
 
-use micropoly::{FrameOptions, Scene};
-use micropoly_backend_cpu::CpuDevice;
-use micropoly_conformance::{Case, Outcome, run};
+mod common;
 
-/// Scene and resolution of every case.
-const SCENES: [(&str, u32, u32); 8] = [
-    ("teapot", 320, 180),
-    ("teapot", 1280, 720),
-    ("eyesplit", 320, 180),
-    ("eyesplit", 1280, 720),
-    ("spheres", 320, 180),
-    ("spheres", 1280, 720),
-    ("still-life", 320, 180),
-    ("still-life", 1280, 720),
-];
+use common::devices;
+use micropoly::devices::{Job, with_device};
+use micropoly::{FrameOptions, Scene};
+use micropoly_conformance::{Case, Outcome, run};
+use micropoly_core::backend::Device;
+use micropoly_core::known::{Mismatch, check};
+
+const SCENES: [&str; 4] = ["teapot", "eyesplit", "spheres", "still-life"];
+const SIZES: [(u32, u32); 3] = [(160, 90), (320, 180), (1280, 720)];
+const BATCHES: [u32; 3] = [500, 4096, 100_000];
 
 fn case(scene: &str, width: u32, height: u32) -> Case {
     let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -25,39 +23,66 @@ fn case(scene: &str, width: u32, height: u32) -> Case {
     let options = FrameOptions { width, height, ..FrameOptions::default() };
     let device = scene_file.for_device(&options).expect("a drawable scene");
     Case {
-        name: format!("{scene} {width}x{height}"),
+        name: format!("{scene}_{width}x{height}"),
         frame: device.frame,
         objects: device.objects,
         patches: device.patches,
     }
 }
 
-/// What every backend that is present makes of a case, in several configurations.
-fn outcomes(case: &Case) -> Vec<(String, Outcome)> {
-    let mut all = Vec::new();
-    for (threads, batch) in [(1, 4096), (2, 4096), (2, 500), (3, 100_000)] {
-        let mut device = CpuDevice::new(threads).expect("threads");
-        let outcome = run(&mut device, case, batch).expect("renders");
-        all.push((format!("cpu, {threads} threads, batch {batch}"), outcome));
+/// Renders all cases on one device.
+struct RunAll<'a>(&'a [Case]);
+
+impl Job for RunAll<'_> {
+    type Output = Vec<(String, u32, Outcome)>;
+
+    fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
+        let all = self.0.iter().flat_map(|case| BATCHES.map(|batch| (case, batch)));
+        all.map(|(case, batch)| {
+            let outcome = run(&mut device, case, batch).expect("renders");
+            (case.name.clone(), batch, outcome)
+        })
+        .collect()
     }
-    all
 }
 
 #[test]
 fn all_backends_give_the_bits_of_the_snapshot() {
-    for (scene, width, height) in SCENES {
-        let case = case(scene, width, height);
-        let all = outcomes(&case);
-        let (first, expected) = &all[0];
-        for (name, outcome) in &all {
-            assert_eq!(outcome, expected, "{}: {name} differs from {first}", case.name);
+    let cases: Vec<Case> = SCENES
+        .into_iter()
+        .flat_map(|scene| SIZES.map(|(width, height)| case(scene, width, height)))
+        .collect();
+    let mut devices = devices();
+    // The CPU a second time, with other threads.
+    devices.push((devices[0].0.clone(), 3));
+    let mut snapshots: Vec<Outcome> = Vec::new();
+    for (entry, threads) in &devices {
+        let outcomes = with_device(entry, *threads, RunAll(&cases)).expect("opens");
+        println!("{} {}: {} renderings", entry.backend.name(), entry.name, outcomes.len());
+        for (index, (case, batch, outcome)) in outcomes.into_iter().enumerate() {
+            let place = index / BATCHES.len();
+            if place == snapshots.len() {
+                insta::assert_json_snapshot!(case.clone(), outcome);
+                snapshots.push(outcome.clone());
+            }
+            assert_eq!(outcome, snapshots[place], "{}: {case}, batch {batch}", entry.name);
         }
-        insta::assert_json_snapshot!(case.name.replace(' ', "_"), expected);
+    }
+}
+
+struct AskAll;
+
+impl Job for AskAll {
+    type Output = Option<Mismatch>;
+
+    fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
+        check(&mut device).expect("runs")
     }
 }
 
 #[test]
-fn the_cpu_gives_the_known_answers() {
-    let mut device = CpuDevice::new(1).expect("threads");
-    assert_eq!(micropoly_core::known::check(&mut device).expect("runs"), None);
+fn every_device_gives_the_known_answers() {
+    for (entry, threads) in devices() {
+        assert_eq!(with_device(&entry, threads, AskAll).expect("opens"), None, "{}", entry.name);
+    }
 }

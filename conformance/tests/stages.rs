@@ -1,21 +1,38 @@
-//! The stage comparison itself: it accepts equal devices, runs every stage over inputs that matter, and
-//! finds a single wrong bit.
+//! Every stage alone on every device, bit by bit against the CPU with one thread; and the comparison itself:
+//! its inputs matter, and it finds a single wrong bit.
 
+mod common;
+
+use common::devices;
+use micropoly::devices::{Job, with_device};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_conformance::corpus::{ROUNDS, input};
-use micropoly_conformance::report::check_stage;
+use micropoly_conformance::report::{StageReport, check_stage};
 use micropoly_conformance::stages::{first_difference, run_stage};
+use micropoly_core::backend::Device;
 use micropoly_core::stage::Stage;
 
 fn cpu(threads: usize) -> CpuDevice {
     CpuDevice::new(threads).expect("threads")
 }
 
+/// All stages on one device.
+struct AllStages;
+
+impl Job for AllStages {
+    type Output = Vec<StageReport>;
+
+    fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
+        Stage::ALL.map(|stage| check_stage(&mut cpu(1), &mut device, stage, ROUNDS)).into()
+    }
+}
+
 #[test]
-fn every_stage_gives_the_same_bits_for_any_number_of_threads() {
-    for stage in Stage::ALL {
-        let report = check_stage(&mut cpu(1), &mut cpu(3), stage, ROUNDS);
-        assert!(report.agrees(), "{report:?}");
+fn every_stage_gives_the_same_bits_on_every_device() {
+    for (entry, _) in devices() {
+        for report in with_device(&entry, 3, AllStages).expect("opens") {
+            assert!(report.agrees(), "{}: {report:?}", entry.name);
+        }
     }
 }
 
