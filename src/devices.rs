@@ -48,10 +48,13 @@ pub fn devices_of(backend: Backend) -> std::result::Result<Vec<DeviceEntry>, Mis
         #[cfg(feature = "cpu")]
         Backend::Cpu => Ok(vec![cpu_entry()]),
         #[cfg(feature = "wgpu")]
-        Backend::Wgpu => found(backend, micropoly_backend_wgpu::devices().iter().map(wgpu_entry).collect()),
+        Backend::Wgpu => found(
+            backend,
+            micropoly_backend_wgpu::devices().into_iter().enumerate().map(wgpu_entry).collect(),
+        ),
         #[cfg(feature = "ocl")]
         Backend::Ocl => match micropoly_backend_ocl::devices() {
-            Ok(all) => found(backend, all.iter().enumerate().map(ocl_entry).collect()),
+            Ok(all) => found(backend, all.into_iter().enumerate().map(ocl_entry).collect()),
             Err(error) => missing(&error.to_string()),
         },
         _ => missing("this program was built without it"),
@@ -75,6 +78,43 @@ fn cpu_entry() -> DeviceEntry {
         name: format!("CPU ({})", std::env::consts::ARCH),
         is_gpu: false,
         details: vec![("cores", cores.to_string())],
+    }
+}
+
+#[cfg(feature = "wgpu")]
+fn wgpu_entry((index, info): (usize, micropoly_backend_wgpu::DeviceInfo)) -> DeviceEntry {
+    DeviceEntry {
+        backend: Backend::Wgpu,
+        index,
+        is_gpu: info.kind.contains("Gpu"),
+        name: info.name,
+        details: vec![
+            ("interface", info.backend),
+            ("driver", info.driver),
+            ("kind", info.kind),
+            ("largest binding, bytes", info.max_binding.to_string()),
+            ("largest buffer, bytes", info.max_buffer.to_string()),
+            ("groups a dimension", info.max_groups.to_string()),
+            ("group memory, bytes", info.workgroup_storage.to_string()),
+        ],
+    }
+}
+
+#[cfg(feature = "ocl")]
+fn ocl_entry((index, info): (usize, micropoly_backend_ocl::DeviceInfo)) -> DeviceEntry {
+    DeviceEntry {
+        backend: Backend::Ocl,
+        index,
+        is_gpu: info.is_gpu,
+        name: info.name,
+        details: vec![
+            ("platform", info.platform),
+            ("driver", info.driver),
+            ("memory, bytes", info.memory.to_string()),
+            ("largest buffer, bytes", info.max_allocation.to_string()),
+            ("group memory, bytes", info.local_memory.to_string()),
+            ("items a group", info.max_work_group.to_string()),
+        ],
     }
 }
 

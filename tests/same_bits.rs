@@ -64,3 +64,16 @@ fn scenes_made_in_memory_are_checked_too() {
     broken.ambient.x = f32::NAN;
     assert!(broken.for_device(&FrameOptions::default()).is_err());
 }
+
+#[test]
+fn seams_that_reach_beyond_their_surface_are_in_every_band() {
+    let scene = Scene::load("scenes/spheres.toml").expect("a scene");
+    let image = |threads: usize| {
+        let frame = FrameOptions { width: 320, height: 180, rate: 1, levels: 8, ..FrameOptions::default() };
+        let options = RenderOptions { frame, threads, ..RenderOptions::default() };
+        render(&scene, &options, |_| {}).expect("renders").image
+    };
+    for threads in [2, 8, 45] {
+        assert!(image(threads) == image(1), "{threads} threads");
+    }
+}

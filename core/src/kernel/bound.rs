@@ -4,8 +4,8 @@
 //! is ever culled, and the control polygons are at least as long as the curves they control.
 
 use crate::abi::{
-    CULL, DRAW, DRAW_LIMITED, FAR_OFF, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING, SPLIT_U,
-    SPLIT_V, Surface, Verdict,
+    CULL, DRAW, DRAW_LIMITED, FAR_OFF, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING,
+    SEAM_ALLOWANCE, SPLIT_U, SPLIT_V, Surface, Verdict,
 };
 use crate::kernel::project::perspective;
 use crate::num::{add, clamp, float, floor, max, min, mul, neg, recip, sqrt, sub};
@@ -33,10 +33,12 @@ pub fn bound(frame: &Frame, patch: &Patch, object: &Object, surface: Surface) ->
     }
     let (x, y) = on_screen(frame, &part);
     let margin = add(1.0, mul(mul(frame.focal, slack), recip(nearest)));
-    let pixels = PixelBox::around(frame, &x, &y, margin);
-    if pixels.is_empty() {
+    if PixelBox::around(frame, &x, &y, margin).is_empty() {
         return verdict(CULL, PixelBox::EMPTY);
     }
+    // A seam may reach beyond the surface, by no more than the longest border that can be drawn.
+    let reach = add(margin, mul(frame.bound, SEAM_ALLOWANCE));
+    let pixels = PixelBox::around(frame, &x, &y, reach);
     let extents = (length_u(&x, &y), length_v(&x, &y));
     if max(extents.0, extents.1) <= frame.bound {
         return verdict(DRAW, pixels);
