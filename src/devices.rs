@@ -166,6 +166,9 @@ pub fn with_device<J: Job>(entry: &DeviceEntry, threads: usize, job: J) -> Resul
                 .map_err(|error| Error::Device(error.to_string()))?;
             Ok(job.run(device, entry.name.clone()))
         }
-        backend => Err(backend.unavailable("this program was built without it".to_owned())),
+        backend => {
+            drop(job);
+            Err(backend.unavailable("this program was built without it".to_owned()))
+        }
     }
 }

@@ -1,4 +1,20 @@
-//! The stages on an OpenCL device. Not built yet: [`AVAILABLE`] says so, and the program says it too.
+//! micropoly's stages on OpenCL devices: kernels that mirror `micropoly-core` function by function.
+//!
+//! `src/kernel` has a file for each of core's. Nothing in them rounds but the functions of `num.cl`, without
+//! fusing ([`OpenOptions::barrier`] enforces that whatever the compiler is told), so the bits are core's.
+//! The OpenCL library is loaded at run time: without one everything ends in [`OclError::NoDriver`].
+
+mod buffer;
+mod device;
+mod error;
+mod list;
+mod program;
+
+pub use buffer::OclBuffer;
+pub use device::{Edit, OclDevice, OpenOptions};
+pub use error::OclError;
+pub use list::{DeviceInfo, devices};
+pub use program::FILES;
 
 /// Whether this backend can render.
-pub const AVAILABLE: bool = false;
+pub const AVAILABLE: bool = true;

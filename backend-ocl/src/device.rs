@@ -1,0 +1,222 @@
+//! An OpenCL device: one context, one queue that keeps order, one kernel a stage.
+#![allow(unsafe_code)] // OpenCL's calls; buffers are checked against the stage before each of them
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use micropoly_core::abi::{Layout, Shared};
+use micropoly_core::backend::Device;
+use micropoly_core::known;
+use micropoly_core::stage::{Items, Stage};
+use opencl3::command_queue::CommandQueue;
+use opencl3::context::Context;
+use opencl3::device::Device as ClDevice;
+use opencl3::kernel::Kernel;
+
+use crate::buffer::OclBuffer;
+use crate::error::OclError;
+use crate::list::{DeviceInfo, found, info};
+use crate::program::{GROUP, build};
+
+/// Pixels a side of the tile that a work-group of `draw` owns; `TILE` in `sample.cl`.
+const TILE: usize = 16;
+/// Bytes of local memory that a work-group of `draw` needs at most.
+const LOCAL_MEMORY: u64 = 16 << 10;
+
+/// Gives a kernel file's name and source, takes the source to be built.
+pub type Edit<'a> = &'a dyn Fn(&str, &str) -> String;
+
+/// How to open a device.
+#[derive(Clone, Default)]
+pub struct OpenOptions<'a> {
+    /// More options for the driver's compiler.
+    pub build_options: String,
+    /// XOR a zero, known at run time only, into every float result: then no compiler option can change bits.
+    pub barrier: bool,
+    /// Open the device even if known answers come out wrong. For tests.
+    pub skip_check: bool,
+    /// Changes kernels before they are built. For tests.
+    pub edit: Option<Edit<'a>>,
+}
+
+impl fmt::Debug for OpenOptions<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("OpenOptions")
+            .field("build_options", &self.build_options)
+            .field("barrier", &self.barrier)
+            .field("skip_check", &self.skip_check)
+            .field("edit", &self.edit.is_some())
+            .finish()
+    }
+}
+
+/// A device that runs the stages through OpenCL.
+#[derive(Debug)]
+pub struct OclDevice {
+    info: DeviceInfo,
+    kernels: Vec<Kernel>,
+    queue: CommandQueue,
+    context: Context,
+    allocated: Arc<AtomicU64>,
+}
+
+impl OclDevice {
+    /// Opens device number `index` of [`crate::devices`], builds the kernels and asks the known answers.
+    ///
+    /// # Errors
+    /// When there is no such device, its driver fails, or it does not compute as it must.
+    pub fn open(index: usize, options: &OpenOptions<'_>) -> Result<Self, OclError> {
+        let all = found()?;
+        let (platform, device) = all.get(index).ok_or(OclError::NoSuchDevice { index, found: all.len() })?;
+        let info = info(platform, device)?;
+        check_size(&info)?;
+        let mut opened = Self::start(device, info, options)?;
+        if !options.skip_check {
+            opened.check_answers()?;
+        }
+        Ok(opened)
+    }
+
+    fn start(device: &ClDevice, info: DeviceInfo, options: &OpenOptions<'_>) -> Result<Self, OclError> {
+        let context = Context::from_device(device).map_err(OclError::driver("opening the device"))?;
+        let queue = CommandQueue::create_default(&context, 0).map_err(OclError::driver("making a queue"))?;
+        let kernels = build(&context, &info.name, options)?;
+        Ok(Self { info, kernels, queue, context, allocated: Arc::default() })
+    }
+
+    fn check_answers(&mut self) -> Result<(), OclError> {
+        match known::check(self)? {
+            None => Ok(()),
+            Some(mismatch) => Err(OclError::WrongAnswer { device: self.name(), mismatch }),
+        }
+    }
+
+    /// What the device is called in reports.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{} ({}, {})", self.info.name, self.info.platform, self.info.driver)
+    }
+
+    /// What is known of the device.
+    #[must_use]
+    pub fn info(&self) -> &DeviceInfo {
+        &self.info
+    }
+
+    fn enqueue(&self, stage: Stage, grid: Grid, buffers: &[&OclBuffer]) -> Result<(), OclError> {
+        let kernel = &self.kernels[stage as usize];
+        let failed = OclError::driver(stage.name());
+        for (place, buffer) in (0..).zip(buffers) {
+            // SAFETY: the kernel takes the buffers of the stage's bindings, which were checked.
+            unsafe { kernel.set_arg(place, &buffer.handle()) }.map_err(&failed)?;
+        }
+        if let Some(count) = grid.count {
+            // SAFETY: kernels whose count the host knows take it after their buffers.
+            unsafe { kernel.set_arg(buffers.len() as u32, &count) }.map_err(&failed)?;
+        }
+        let global = grid.groups.map(|groups| groups.max(1));
+        let global = [global[0] * GROUP, global[1]];
+        let local = [GROUP, 1];
+        // SAFETY: two dimensions, two sizes each; kernels stay within their buffers.
+        unsafe {
+            self.queue.enqueue_nd_range_kernel(
+                kernel.get(),
+                2,
+                std::ptr::null(),
+                global.as_ptr(),
+                local.as_ptr(),
+                &[],
+            )
+        }
+        .map_err(&failed)?;
+        self.queue.flush().map_err(&failed)
+    }
+}
+
+fn check_size(info: &DeviceInfo) -> Result<(), OclError> {
+    let too_small = |what, has, needed| OclError::TooSmall { device: info.name.clone(), what, has, needed };
+    if info.max_work_group < GROUP {
+        return Err(too_small("a largest work-group of", info.max_work_group as u64, GROUP as u64));
+    }
+    if info.local_memory < LOCAL_MEMORY {
+        return Err(too_small("local memory in bytes of", info.local_memory, LOCAL_MEMORY));
+    }
+    Ok(())
+}
+
+/// Work-groups of a stage, and the count that its kernel is told.
+struct Grid {
+    groups: [usize; 2],
+    count: Option<u32>,
+}
+
+impl Grid {
+    /// The work-groups a stage needs for its items, or `None` if they do not go together.
+    fn of(stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Option<Self> {
+        let one = Self { groups: [1, 1], count: None };
+        match (stage, items) {
+            (Stage::Seed, Items::Count(count)) => Self::counted(count, &buffers[1..2]),
+            (Stage::KnownAnswers, Items::Count(count)) => Self::counted(count, &buffers[1..3]),
+            (Stage::Take | Stage::Flush, _) | (Stage::Scan, Items::Taken) => Some(one),
+            // How many are taken only the device knows; the rest of the batch does nothing.
+            (Stage::Bound, Items::Taken) => Some(Self::lines(buffers[5].entries(), None)),
+            (Stage::Split, Items::Taken) => Some(Self::lines(buffers[1].entries(), None)),
+            (Stage::Draw, Items::Image { width, height }) => {
+                let tiles = |pixels: u32| (pixels as usize).div_ceil(TILE);
+                Some(Self { groups: [tiles(width), tiles(height)], count: None })
+            }
+            _ => None,
+        }
+    }
+
+    fn counted(count: u32, buffers: &[&OclBuffer]) -> Option<Self> {
+        let fits = buffers.iter().all(|buffer| u64::from(count) <= buffer.entries());
+        fits.then(|| Self::lines(u64::from(count), Some(count)))
+    }
+
+    fn lines(items: u64, count: Option<u32>) -> Self {
+        Self { groups: [(items as usize).div_ceil(GROUP), 1], count }
+    }
+}
+
+fn check_bindings(stage: Stage, buffers: &[&OclBuffer]) -> Result<(), OclError> {
+    let bindings = stage.bindings();
+    if bindings.len() != buffers.len() {
+        return Err(OclError::Bindings { stage: stage.name() });
+    }
+    for (binding, buffer) in bindings.iter().zip(buffers) {
+        if binding.layout != buffer.layout() {
+            return Err(OclError::Mismatch { buffer: buffer.name(), wanted: binding.layout.name });
+        }
+    }
+    Ok(())
+}
+
+impl Device for OclDevice {
+    type Buffer = OclBuffer;
+    type Error = OclError;
+
+    fn allocate(&mut self, name: &'static str, layout: Layout, entries: u64) -> Result<OclBuffer, OclError> {
+        let limit = self.info.max_allocation;
+        OclBuffer::new((&self.context, &self.queue), (name, layout, entries), limit, &self.allocated)
+    }
+
+    fn bytes_allocated(&self) -> u64 {
+        self.allocated.load(Ordering::Relaxed)
+    }
+
+    fn write<T: Shared>(&mut self, buffer: &OclBuffer, data: &[T]) -> Result<(), OclError> {
+        buffer.write(&self.queue, data)
+    }
+
+    fn read<T: Shared>(&mut self, buffer: &OclBuffer, first: u64, out: &mut [T]) -> Result<(), OclError> {
+        buffer.read(&self.queue, first, out)
+    }
+
+    fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Result<(), OclError> {
+        check_bindings(stage, buffers)?;
+        let grid = Grid::of(stage, items, buffers).ok_or(OclError::Bindings { stage: stage.name() })?;
+        self.enqueue(stage, grid, buffers)
+    }
+}

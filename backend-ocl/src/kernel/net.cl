@@ -1,0 +1,91 @@
+// Mirrors core/src/patch/net.rs: sixteen control points in eye space, index 4·i + j with i along u.
+typedef struct {
+    float x[16];
+    float y[16];
+    float z[16];
+} Net;
+
+// One coordinate of control point `l` in eye space, by its row of the transform.
+static float transformed(uint zero, __global const Patch *patch, __global const float *row, uint l) {
+    const float xy = add(mul(row[0], patch->x[l]), mul(row[1], patch->y[l]));
+    return add(add(xy, mul(row[2], patch->z[l])), row[3]);
+}
+
+static void in_eye_space(uint zero, __global const Patch *patch, __global const Object *object, Net *net) {
+    for (uint l = 0u; l < 16u; l++) {
+        net->x[l] = transformed(zero, patch, object->to_eye, l);
+        net->y[l] = transformed(zero, patch, object->to_eye + 4, l);
+        net->z[l] = transformed(zero, patch, object->to_eye + 8, l);
+    }
+}
+
+// All sixteen numbers reduced to the largest in a fixed tree.
+static float fold_max(const float *all) {
+    float lanes[16];
+    for (uint l = 0u; l < 16u; l++) {
+        lanes[l] = all[l];
+    }
+    for (uint width = 8u; width > 0u; width /= 2u) {
+        for (uint l = 0u; l < width; l++) {
+            lanes[l] = max(lanes[l], lanes[l + width]);
+        }
+    }
+    return lanes[0];
+}
+
+// All sixteen numbers reduced to the smallest in a fixed tree.
+static float fold_min(const float *all) {
+    float lanes[16];
+    for (uint l = 0u; l < 16u; l++) {
+        lanes[l] = all[l];
+    }
+    for (uint width = 8u; width > 0u; width /= 2u) {
+        for (uint l = 0u; l < width; l++) {
+            lanes[l] = min(lanes[l], lanes[l + width]);
+        }
+    }
+    return lanes[0];
+}
+
+static float extent(const Net *net) {
+    float largest[16];
+    for (uint l = 0u; l < 16u; l++) {
+        largest[l] = max(max(abs(net->x[l]), abs(net->y[l])), abs(net->z[l]));
+    }
+    return fold_max(largest);
+}
+
+static float weighted4(uint zero, float4 w, float a, float b, float c, float d) {
+    const float low = add(mul(w.x, a), mul(w.y, b));
+    return add(low, add(mul(w.z, c), mul(w.w, d)));
+}
+
+static void combine_u(uint zero, const float *c, const float4 *weights, float *out) {
+    for (uint k = 0u; k < 4u; k++) {
+        for (uint j = 0u; j < 4u; j++) {
+            out[4u * k + j] = weighted4(zero, weights[k], c[j], c[4u + j], c[8u + j], c[12u + j]);
+        }
+    }
+}
+
+static void combine_v(uint zero, const float *c, const float4 *weights, float *out) {
+    for (uint i = 0u; i < 4u; i++) {
+        const float *p = c + 4u * i;
+        for (uint l = 0u; l < 4u; l++) {
+            out[4u * i + l] = weighted4(zero, weights[l], p[0], p[1], p[2], p[3]);
+        }
+    }
+}
+
+static void restricted(uint zero, const Net *net, Surface surface, Net *part) {
+    float4 along_u[4], along_v[4];
+    float rows[16];
+    blossom(zero, surface.u, surface.u + u_size(surface), along_u);
+    blossom(zero, surface.v, surface.v + v_size(surface), along_v);
+    combine_u(zero, net->x, along_u, rows);
+    combine_v(zero, rows, along_v, part->x);
+    combine_u(zero, net->y, along_u, rows);
+    combine_v(zero, rows, along_v, part->y);
+    combine_u(zero, net->z, along_u, rows);
+    combine_v(zero, rows, along_v, part->z);
+}

@@ -1,0 +1,69 @@
+// Mirrors core/src/kernel/scan.rs: count, prefix sum, places. One work-group; each of its work-items counts
+// an unbroken run of the batch, so outputs keep their order.
+
+// Surfaces split, drawn, and drawn because they may not be split.
+typedef uint4 Counts;
+
+static Counts counted(uint code) {
+    const bool limited = code == DRAW_LIMITED;
+    const bool drawn = code == DRAW || limited;
+    return (Counts)(code != CULL && !drawn ? 1u : 0u, drawn ? 1u : 0u, limited ? 1u : 0u, 0u);
+}
+
+static uint saturating_sub(uint a, uint b) {
+    return a > b ? a - b : 0u;
+}
+
+static Control commit(Control control, Counts all, uint stack_room, uint draw_room) {
+    const uint splits = all.x, draws = all.y, limited = all.z;
+    const uint stack = control.base + 2u * splits;
+    const uint excess_stack = saturating_sub(stack, stack_room);
+    const uint excess_draws = saturating_sub(control.waiting + draws, draw_room);
+    control.stack = stack;
+    control.peak = stack > control.peak ? stack : control.peak;
+    control.fresh = draws;
+    control.processed += control.taken;
+    control.culled += control.taken - draws - splits;
+    control.drawn += draws;
+    control.limited += limited;
+    control.overflow = excess_stack > excess_draws ? excess_stack : excess_draws;
+    return control;
+}
+
+// Sum of the first `count` entries.
+static Counts sum(__local const Counts *all, uint count) {
+    Counts total = (Counts)(0u);
+    for (uint index = 0u; index < count; index++) {
+        total += all[index];
+    }
+    return total;
+}
+
+static void scan(__global const Verdict *verdicts, __global Slot *slots, uint from, uint to, Counts before) {
+    for (uint index = from; index < to; index++) {
+        const Slot slot = {before.x, before.y};
+        slots[index] = slot;
+        before += counted(verdicts[index].code);
+    }
+}
+
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
+void stage_scan(__global const Limits *limits, __global const Verdict *verdicts, __global Slot *slots,
+                __global Control *control) {
+    __local Counts counts[GROUP];
+    const uint lane = get_local_id(0);
+    const uint taken = control->taken;
+    const uint run = (taken + GROUP - 1u) / GROUP;
+    const uint from = lane * run < taken ? lane * run : taken;
+    const uint to = from + run < taken ? from + run : taken;
+    Counts own = (Counts)(0u);
+    for (uint index = from; index < to; index++) {
+        own += counted(verdicts[index].code);
+    }
+    counts[lane] = own;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    scan(verdicts, slots, from, to, sum(counts, lane));
+    if (lane == 0u) {
+        *control = commit(*control, sum(counts, GROUP), limits->stack_room, limits->draw_room);
+    }
+}

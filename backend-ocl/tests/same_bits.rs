@@ -1,0 +1,150 @@
+//! OpenCL gives the CPU's bits: every scene, several batches, dice rates and compiler options.
+//!
+//! Runs on every OpenCL device there is; without one it fails, since nothing would be tested.
+
+use micropoly::{FrameOptions, Scene};
+use micropoly_backend_cpu::CpuDevice;
+use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
+use micropoly_conformance::{Case, run};
+use micropoly_core::abi::Shared;
+use micropoly_core::backend::Device;
+use micropoly_core::known;
+
+/// Everything that an OpenCL compiler may be told to break.
+const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
+const SCENES: [&str; 4] = ["teapot", "eyesplit", "spheres", "still-life"];
+const SMALL: FrameOptions =
+    FrameOptions { width: 320, height: 180, bound: 8.0, rate: 8, levels: 23, cull_backfaces: false };
+
+fn case(scene: &str, options: &FrameOptions) -> Case {
+    let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+    let device = Scene::load(path).expect("a scene").for_device(options).expect("a drawable scene");
+    Case {
+        name: format!("{scene} {options:?}"),
+        frame: device.frame,
+        objects: device.objects,
+        patches: device.patches,
+    }
+}
+
+/// Number of devices; fails where there is none.
+fn device_count() -> usize {
+    devices().unwrap_or_else(|error| panic!("this test needs an OpenCL device: {error}")).len()
+}
+
+/// Renders on every device and on the CPU.
+fn compare(case: &Case, batches: &[u32], options: &OpenOptions<'_>) {
+    let mut cpu = CpuDevice::new(1).expect("threads");
+    let expected = run(&mut cpu, case, 4096).expect("renders");
+    for index in 0..device_count() {
+        let mut device = OclDevice::open(index, options).unwrap_or_else(|error| panic!("{error}"));
+        for &batch in batches {
+            let outcome = run(&mut device, case, batch).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(
+                outcome,
+                expected,
+                "{}: {} differs, batch {batch}, {options:?}",
+                case.name,
+                device.name()
+            );
+        }
+    }
+}
+
+#[test]
+fn all_scenes_have_the_bits_of_the_cpu() {
+    for scene in SCENES {
+        compare(&case(scene, &SMALL), &[500, 4096], &OpenOptions::default());
+    }
+}
+
+#[test]
+fn other_dice_rates_have_the_bits_of_the_cpu() {
+    for (rate, bound) in [(16, 20.0), (2, 20.0), (1, 3.0)] {
+        compare(&case("teapot", &FrameOptions { rate, bound, ..SMALL }), &[4096], &OpenOptions::default());
+    }
+}
+
+#[test]
+fn backface_culling_has_the_bits_of_the_cpu() {
+    let options = FrameOptions { cull_backfaces: true, ..SMALL };
+    compare(&case("teapot", &options), &[4096], &OpenOptions::default());
+}
+
+#[test]
+fn an_image_that_ends_within_tiles_has_the_bits_of_the_cpu() {
+    let options = FrameOptions { width: 211, height: 97, ..SMALL };
+    compare(&case("still-life", &options), &[4096], &OpenOptions::default());
+}
+
+#[test]
+fn the_barrier_changes_no_bits() {
+    let options = OpenOptions { barrier: true, ..OpenOptions::default() };
+    compare(&case("spheres", &SMALL), &[4096], &options);
+}
+
+#[test]
+fn a_hostile_compiler_changes_no_bits_behind_the_barrier() {
+    let options = OpenOptions {
+        build_options: HOSTILE.to_owned(),
+        barrier: true,
+        skip_check: true, // denormals are flushed, as asked for; no kernel produces any
+        ..OpenOptions::default()
+    };
+    for scene in SCENES {
+        compare(&case(scene, &SMALL), &[4096], &options);
+    }
+}
+
+#[test]
+fn a_hostile_compiler_is_found_out() {
+    let hostile =
+        |barrier| OpenOptions { build_options: HOSTILE.to_owned(), barrier, ..OpenOptions::default() };
+    for index in 0..device_count() {
+        for barrier in [false, true] {
+            match OclDevice::open(index, &hostile(barrier)) {
+                Ok(device) => println!("{}: no operation differs, barrier {barrier}", device.name()),
+                Err(OclError::WrongAnswer { device, mismatch }) => {
+                    println!("{device}: {} differs, barrier {barrier}", mismatch.operation());
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn every_device_gives_the_known_answers() {
+    for index in 0..device_count() {
+        for barrier in [false, true] {
+            let options = OpenOptions { barrier, skip_check: true, ..OpenOptions::default() };
+            let mut device = OclDevice::open(index, &options).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(known::check(&mut device).expect("runs"), None, "{}", device.name());
+        }
+    }
+}
+
+#[test]
+fn a_wrong_kernel_is_refused() {
+    let edit = |name: &str, source: &str| match name {
+        "num.cl" => source.replace("exact(a + b)", "exact(a - b)"),
+        _ => source.to_owned(),
+    };
+    let options = OpenOptions { edit: Some(&edit), ..OpenOptions::default() };
+    for index in 0..device_count() {
+        let error = OclDevice::open(index, &options).expect_err("must be refused").to_string();
+        assert!(error.contains("is refused: it computes a + b otherwise"), "{error}");
+    }
+}
+
+#[test]
+fn what_is_too_large_is_refused_with_its_numbers() {
+    for index in 0..device_count() {
+        let mut device =
+            OclDevice::open(index, &OpenOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+        let limit = device.info().max_allocation;
+        let error = device.allocate("stack", u32::LAYOUT, limit).expect_err("too large").to_string();
+        assert!(error.contains("stack") && error.contains(&limit.to_string()), "{error}");
+        assert_eq!(device.bytes_allocated(), 0);
+    }
+}

@@ -1,0 +1,65 @@
+//! A block of device memory with a layout.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use micropoly_core::abi::{Layout, Shared};
+
+use crate::error::WgpuError;
+
+/// Entries of one layout in the device's memory.
+#[derive(Debug)]
+pub struct WgpuBuffer {
+    name: &'static str,
+    layout: Layout,
+    entries: u64,
+    memory: wgpu::Buffer,
+    allocated: Arc<AtomicU64>,
+}
+
+impl WgpuBuffer {
+    /// Takes over `memory`, which is zeroed, and adds the size of its entries to `allocated`.
+    pub(crate) fn new(
+        name: &'static str,
+        layout: Layout,
+        entries: u64,
+        memory: wgpu::Buffer,
+        allocated: &Arc<AtomicU64>,
+    ) -> Self {
+        allocated.fetch_add(entries * layout.size as u64, Ordering::Relaxed);
+        Self { name, layout, entries, memory, allocated: Arc::clone(allocated) }
+    }
+
+    /// Number of its entries.
+    pub(crate) fn entries(&self) -> u64 {
+        self.entries
+    }
+
+    /// The memory itself.
+    pub(crate) fn memory(&self) -> &wgpu::Buffer {
+        &self.memory
+    }
+
+    /// Does it hold entries of this layout?
+    pub(crate) fn check_layout(&self, layout: Layout) -> Result<(), WgpuError> {
+        if layout == self.layout {
+            return Ok(());
+        }
+        Err(WgpuError::Mismatch { buffer: self.name, wanted: layout.name })
+    }
+
+    /// Offset in bytes of `count` entries from `first` on, if it has them.
+    pub(crate) fn offset_of<T: Shared>(&self, first: u64, count: usize) -> Result<u64, WgpuError> {
+        self.check_layout(T::LAYOUT)?;
+        if first.saturating_add(count as u64) <= self.entries {
+            return Ok(first * size_of::<T>() as u64);
+        }
+        Err(WgpuError::Mismatch { buffer: self.name, wanted: T::LAYOUT.name })
+    }
+}
+
+impl Drop for WgpuBuffer {
+    fn drop(&mut self) {
+        self.allocated.fetch_sub(self.entries * self.layout.size as u64, Ordering::Relaxed);
+    }
+}

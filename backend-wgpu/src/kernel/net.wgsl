@@ -1,0 +1,97 @@
+// Mirrors core/src/patch/net.rs: sixteen control points in eye space, index 4 i + j with i along u.
+
+struct Net {
+    x: array<f32, 16>,
+    y: array<f32, 16>,
+    z: array<f32, 16>,
+}
+
+// One eye-space coordinate (0, 1, 2) of control point `l`.
+fn transformed(patch_id: u32, k: u32, l: u32) -> f32 {
+    let object = patches[patch_id].object;
+    let m0 = objects[object].to_eye[4u * k];
+    let m1 = objects[object].to_eye[4u * k + 1u];
+    let m2 = objects[object].to_eye[4u * k + 2u];
+    let m3 = objects[object].to_eye[4u * k + 3u];
+    let xy = add(mul(m0, patches[patch_id].x[l]), mul(m1, patches[patch_id].y[l]));
+    return add(add(xy, mul(m2, patches[patch_id].z[l])), m3);
+}
+
+fn in_eye_space(patch_id: u32) -> Net {
+    var net: Net;
+    for (var l = 0u; l < 16u; l++) {
+        net.x[l] = transformed(patch_id, 0u, l);
+        net.y[l] = transformed(patch_id, 1u, l);
+        net.z[l] = transformed(patch_id, 2u, l);
+    }
+    return net;
+}
+
+// The smallest (or largest) of sixteen numbers, reduced in core's tree.
+fn fold_min(lanes: array<f32, 16>) -> f32 {
+    var all = lanes;
+    for (var width = 8u; width > 0u; width /= 2u) {
+        for (var l = 0u; l < width; l++) {
+            all[l] = min(all[l], all[l + width]);
+        }
+    }
+    return all[0];
+}
+
+fn fold_max(lanes: array<f32, 16>) -> f32 {
+    var all = lanes;
+    for (var width = 8u; width > 0u; width /= 2u) {
+        for (var l = 0u; l < width; l++) {
+            all[l] = max(all[l], all[l + width]);
+        }
+    }
+    return all[0];
+}
+
+fn extent(net: Net) -> f32 {
+    var largest: array<f32, 16>;
+    for (var l = 0u; l < 16u; l++) {
+        largest[l] = max(max(abs(net.x[l]), abs(net.y[l])), abs(net.z[l]));
+    }
+    return fold_max(largest);
+}
+
+fn restricted(net: Net, surface: Surface) -> Net {
+    let along_u = blossom(surface.u, surface.u + u_size(surface));
+    let along_v = blossom(surface.v, surface.v + v_size(surface));
+    return Net(
+        combine_v(combine_u(net.x, along_u), along_v),
+        combine_v(combine_u(net.y, along_u), along_v),
+        combine_v(combine_u(net.z, along_u), along_v),
+    );
+}
+
+fn weighted_sum(w: vec4<f32>, a: f32, b: f32, c: f32, d: f32) -> f32 {
+    let low = add(mul(w.x, a), mul(w.y, b));
+    return add(low, add(mul(w.z, c), mul(w.w, d)));
+}
+
+fn combine_u(points: array<f32, 16>, weights: Blossom) -> array<f32, 16> {
+    var c = points;
+    var rows = weights.rows;
+    var out: array<f32, 16>;
+    for (var k = 0u; k < 4u; k++) {
+        for (var j = 0u; j < 4u; j++) {
+            out[4u * k + j] = weighted_sum(rows[k], c[j], c[4u + j], c[8u + j], c[12u + j]);
+        }
+    }
+    return out;
+}
+
+fn combine_v(points: array<f32, 16>, weights: Blossom) -> array<f32, 16> {
+    var c = points;
+    var rows = weights.rows;
+    var out: array<f32, 16>;
+    for (var i = 0u; i < 4u; i++) {
+        for (var l = 0u; l < 4u; l++) {
+            out[4u * i + l] =
+                weighted_sum(rows[l], c[4u * i], c[4u * i + 1u], c[4u * i + 2u], c[4u * i + 3u]);
+        }
+    }
+    return out;
+}

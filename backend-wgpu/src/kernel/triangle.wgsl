@@ -1,0 +1,188 @@
+// Mirrors core/src/kernel/triangle.rs: coverage by integer edge functions, depth by exact weights.
+//
+// Edge functions need 64-bit integers, which WGSL has not: they are pairs of words. Where all corners lie
+// within 64 pixels of the sample they fit 32 bits, which gives the same answers faster.
+
+// A snapped vertex as seen from a sample.
+struct Corner {
+    x: i32,
+    y: i32,
+    w: f32,
+}
+
+fn corner(vertex: Vertex, column: i32, row: i32) -> Corner {
+    return Corner(vertex.x - centre(column), vertex.y - centre(row), vertex.w);
+}
+
+// A 64-bit integer in two's complement.
+struct Wide {
+    low: u32,
+    high: u32,
+}
+
+fn wide_negated(a: Wide) -> Wide {
+    let low = 0u - a.low;
+    return Wide(low, ~a.high + select(0u, 1u, low == 0u));
+}
+
+fn wide_add(a: Wide, b: Wide) -> Wide {
+    let low = a.low + b.low;
+    return Wide(low, a.high + b.high + select(0u, 1u, low < a.low));
+}
+
+fn wide_sub(a: Wide, b: Wide) -> Wide {
+    return Wide(a.low - b.low, a.high - b.high - select(0u, 1u, a.low < b.low));
+}
+
+fn magnitude(a: i32) -> u32 {
+    return u32(select(a, 0 - a, a < 0));
+}
+
+fn wide_mul(a: i32, b: i32) -> Wide {
+    let p = magnitude(a);
+    let q = magnitude(b);
+    let low = (p & 0xffffu) * (q & 0xffffu);
+    let cross_p = (p >> 16u) * (q & 0xffffu);
+    let cross_q = (p & 0xffffu) * (q >> 16u);
+    let middle = (low >> 16u) + (cross_p & 0xffffu) + (cross_q & 0xffffu);
+    let high = (p >> 16u) * (q >> 16u) + (cross_p >> 16u) + (cross_q >> 16u) + (middle >> 16u);
+    let product = Wide((low & 0xffffu) | (middle << 16u), high);
+    if (a < 0) != (b < 0) {
+        return wide_negated(product);
+    }
+    return product;
+}
+
+// -1, 0 or 1.
+fn wide_sign(a: Wide) -> i32 {
+    if (a.high & 0x80000000u) != 0u {
+        return -1;
+    }
+    return select(0, 1, (a.low | a.high) != 0u);
+}
+
+fn wide_abs(a: Wide) -> Wide {
+    if (a.high & 0x80000000u) != 0u {
+        return wide_negated(a);
+    }
+    return a;
+}
+
+fn wide_leading_zeros(a: Wide) -> u32 {
+    return select(32u + countLeadingZeros(a.low), countLeadingZeros(a.high), a.high != 0u);
+}
+
+// The low word of `a` shifted right by less than 32.
+fn wide_shifted(a: Wide, by: u32) -> u32 {
+    return select((a.low >> by) | (a.high << ((32u - by) & 31u)), a.low, by == 0u);
+}
+
+fn wide_edge(a: Corner, b: Corner) -> Wide {
+    return wide_sub(wide_mul(a.x, b.y), wide_mul(a.y, b.x));
+}
+
+fn edge(a: Corner, b: Corner) -> i32 {
+    return a.x * b.y - a.y * b.x;
+}
+
+fn int_sign(a: i32) -> i32 {
+    return select(select(0, 1, a > 0), -1, a < 0);
+}
+
+// `edges` are the signs of the values of the edges opposite the corners, `area` that of their sum.
+fn owns(a: Corner, b: Corner, c: Corner, edges: vec3<i32>, area: i32) -> bool {
+    if edges.x != 0 && edges.y != 0 && edges.z != 0 {
+        return edges.x == edges.y && edges.y == edges.z;
+    }
+    return area != 0
+        && owns_border(b, c, edges.x, area)
+        && owns_border(c, a, edges.y, area)
+        && owns_border(a, b, edges.z, area);
+}
+
+fn owns_border(before: Corner, after: Corner, edge_sign: i32, area: i32) -> bool {
+    let value = edge_sign * area;
+    let dx = (after.x - before.x) * area;
+    let dy = (after.y - before.y) * area;
+    return value > 0 || (value == 0 && (dy < 0 || (dy == 0 && dx > 0)));
+}
+
+// 1 / distance from area and weights that fit 24 bits.
+fn depth(w: vec3<f32>, area: u32, for_b: u32, for_c: u32) -> f32 {
+    let share = recip(float(i32(area)));
+    let weight_b = mul(float(i32(for_b)), share);
+    let weight_c = mul(float(i32(for_c)), share);
+    let mean = add(w.x, add(mul(weight_b, sub(w.y, w.x)), mul(weight_c, sub(w.z, w.x))));
+    return clamp(mean, min(min(w.x, w.y), w.z), max(max(w.x, w.y), w.z));
+}
+
+// Bits by which an area must be shifted to fit a float's mantissa, from its leading zeros in 64 bits.
+fn spare_bits(leading_zeros: u32) -> u32 {
+    return select(40u - leading_zeros, 0u, leading_zeros > 40u);
+}
+
+fn near(a: Corner) -> bool {
+    return (magnitude(a.x) | magnitude(a.y)) < 16384u;
+}
+
+// 1 / distance at the centre of a pixel; 0 if the triangle does not own that sample.
+fn sample_triangle(a: Vertex, b: Vertex, c: Vertex, column: i32, row: i32) -> f32 {
+    let p = corner(a, column, row);
+    let q = corner(b, column, row);
+    let r = corner(c, column, row);
+    if near(p) && near(q) && near(r) {
+        return sample_near(p, q, r);
+    }
+    return sample_wide(p, q, r);
+}
+
+fn sample_near(a: Corner, b: Corner, c: Corner) -> f32 {
+    let ea = edge(b, c);
+    let eb = edge(c, a);
+    let ec = edge(a, b);
+    let area = ea + eb + ec;
+    if !owns(a, b, c, vec3<i32>(int_sign(ea), int_sign(eb), int_sign(ec)), int_sign(area)) {
+        return 0.0;
+    }
+    let whole = magnitude(area);
+    let spare = spare_bits(32u + countLeadingZeros(whole));
+    let w = vec3<f32>(a.w, b.w, c.w);
+    return depth(w, whole >> spare, magnitude(eb) >> spare, magnitude(ec) >> spare);
+}
+
+fn sample_wide(a: Corner, b: Corner, c: Corner) -> f32 {
+    let ea = wide_edge(b, c);
+    let eb = wide_edge(c, a);
+    let ec = wide_edge(a, b);
+    let area = wide_add(wide_add(ea, eb), ec);
+    let signs = vec3<i32>(wide_sign(ea), wide_sign(eb), wide_sign(ec));
+    if !owns(a, b, c, signs, wide_sign(area)) {
+        return 0.0;
+    }
+    let whole = wide_abs(area);
+    let spare = spare_bits(wide_leading_zeros(whole));
+    let w = vec3<f32>(a.w, b.w, c.w);
+    return depth(
+        w,
+        wide_shifted(whole, spare),
+        wide_shifted(wide_abs(eb), spare),
+        wide_shifted(wide_abs(ec), spare),
+    );
+}
+
+// Sign of the area of a triangle on screen: -1 if it runs anticlockwise.
+fn signed_area(a: Vertex, b: Vertex, c: Vertex) -> i32 {
+    let to_b = Corner(b.x - a.x, b.y - a.y, 0.0);
+    let to_c = Corner(c.x - a.x, c.y - a.y, 0.0);
+    return wide_sign(wide_edge(to_b, to_c));
+}
+
+fn centre(pixel: i32) -> i32 {
+    return pixel * SUBPIXELS + SUBPIXELS / 2;
+}
+
+// First pixel whose centre is not before `low`, and one past the last whose centre is not after `high`.
+fn pixels_between(low: i32, high: i32) -> vec2<i32> {
+    let half = SUBPIXELS / 2;
+    return vec2<i32>((low + half - 1) >> SUBPIXEL_BITS, ((high - half) >> SUBPIXEL_BITS) + 1);
+}

@@ -1,0 +1,136 @@
+//! Every scene gives exactly the CPU's bits. Needs a Vulkan driver; Mesa's software one will do.
+
+use micropoly::{FrameOptions, Scene};
+use micropoly_backend_cpu::CpuDevice;
+use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
+use micropoly_conformance::{Case, Outcome, run};
+use micropoly_core::abi::{Control, Limits, Shared, Surface};
+use micropoly_core::backend::Device;
+use micropoly_core::stage::{Items, Stage};
+
+fn open() -> WgpuDevice {
+    WgpuDevice::open(0, None).unwrap_or_else(|error| panic!("these tests need a GPU or lavapipe: {error}"))
+}
+
+fn case(scene: &str, options: FrameOptions) -> Case {
+    let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+    let device = Scene::load(path).expect("a scene").for_device(&options).expect("a drawable scene");
+    Case {
+        name: format!("{scene}, {options:?}"),
+        frame: device.frame,
+        objects: device.objects,
+        patches: device.patches,
+    }
+}
+
+fn small() -> FrameOptions {
+    FrameOptions { width: 320, height: 180, ..FrameOptions::default() }
+}
+
+fn on_cpu(case: &Case) -> Outcome {
+    run(&mut CpuDevice::new(1).expect("threads"), case, 4096).expect("renders")
+}
+
+fn assert_same(case: &Case, batches: &[u32]) {
+    let expected = on_cpu(case);
+    let mut device = open();
+    for &batch in batches {
+        let found = run(&mut device, case, batch).expect("renders");
+        assert_eq!(found, expected, "{}, batch {batch}", case.name);
+    }
+}
+
+#[test]
+fn devices_are_listed_and_one_opens() {
+    assert!(!devices().is_empty(), "no Vulkan driver: apt install mesa-vulkan-drivers libvulkan1");
+    assert_eq!(open().name(), devices()[0].name);
+}
+
+#[test]
+fn the_teapot_has_the_same_bits() {
+    assert_same(&case("teapot", small()), &[500, 4096]);
+}
+
+#[test]
+fn the_eye_split_has_the_same_bits() {
+    assert_same(&case("eyesplit", small()), &[500, 4096]);
+}
+
+#[test]
+fn the_spheres_have_the_same_bits() {
+    assert_same(&case("spheres", small()), &[500, 4096]);
+}
+
+#[test]
+fn the_still_life_has_the_same_bits() {
+    assert_same(&case("still-life", small()), &[500, 4096]);
+}
+
+#[test]
+fn large_grids_have_the_same_bits() {
+    assert_same(&case("teapot", FrameOptions { rate: 16, bound: 20.0, ..small() }), &[4096]);
+}
+
+#[test]
+fn small_grids_have_the_same_bits() {
+    assert_same(&case("teapot", FrameOptions { rate: 2, bound: 20.0, ..small() }), &[4096]);
+}
+
+#[test]
+fn culled_backfaces_leave_the_same_bits() {
+    assert_same(&case("teapot", FrameOptions { cull_backfaces: true, ..small() }), &[4096]);
+}
+
+/// Micropolygons of hundreds of pixels, whose edge functions need 64 bits, and clipped ones.
+#[test]
+fn large_micropolygons_have_the_same_bits() {
+    let tiny = FrameOptions { width: 160, height: 90, rate: 1, ..FrameOptions::default() };
+    assert_same(&case("teapot", FrameOptions { levels: 1, ..tiny }), &[4096]);
+    assert_same(&case("eyesplit", FrameOptions { levels: 3, ..tiny }), &[7]);
+}
+
+/// More groups than one dimension of a dispatch has.
+#[test]
+fn many_items_are_spread_over_two_dimensions() {
+    let patches = 5_000_000;
+    let mut device = open();
+    let limits = device.allocate("limits", Limits::LAYOUT, 1).expect("memory");
+    let stack = device.allocate("stack", Surface::LAYOUT, u64::from(patches)).expect("memory");
+    let control = device.allocate("control", Control::LAYOUT, 1).expect("memory");
+    device.write(&limits, &[Limits { patches, ..Limits::default() }]).expect("writes");
+    device.dispatch(Stage::Seed, Items::Count(patches), &[&limits, &stack, &control]).expect("runs");
+    let mut all = vec![Surface::default(); patches as usize];
+    device.read(&stack, 0, &mut all).expect("reads");
+    assert!(all.iter().rev().enumerate().all(|(id, surface)| *surface == Surface::root(id as u32)));
+}
+
+#[test]
+fn a_buffer_beyond_the_limits_is_an_error() {
+    let error = open().allocate("stack", Surface::LAYOUT, 1 << 24).expect_err("too large");
+    assert_eq!(
+        error.to_string(),
+        "the stack buffer of 268435456 bytes is larger than the 134217728 bytes that wgpu allows; \
+         use a smaller batch, image or scene, or the CPU"
+    );
+}
+
+#[test]
+fn an_inexact_kernel_is_refused_by_operation() {
+    let fused = |file: &str, source: &str| match file {
+        "num.wgsl" => source.replace("exactly(a + b)", "exactly(a + b + 1e-6)"),
+        _ => source.to_owned(),
+    };
+    let error = WgpuDevice::open(0, Some(&fused)).expect_err("refused");
+    assert!(matches!(&error, WgpuError::Inexact { .. }), "{error}");
+    assert!(error.to_string().contains("a + b"), "{error}");
+}
+
+#[test]
+fn a_kernel_that_does_not_compile_is_an_error() {
+    let broken = |file: &str, source: &str| match file {
+        "scan.wgsl" => source.replace("fn commit", "fn commit commit"),
+        _ => source.to_owned(),
+    };
+    let error = WgpuDevice::open(0, Some(&broken)).expect_err("refused");
+    assert!(matches!(error, WgpuError::Kernel { stage: "scan", .. }), "{error}");
+}
