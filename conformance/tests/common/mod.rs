@@ -6,13 +6,13 @@ use micropoly::devices::{DeviceEntry, devices_of};
 
 /// Every device of every backend, with a number of threads for the CPU, which comes first.
 ///
-/// In CI a backend without a device is a failure; elsewhere it is said and left out.
+/// In CI a backend that was built in but has no device is a failure; elsewhere it is said and left out.
 pub fn devices() -> Vec<(DeviceEntry, usize)> {
     let mut all = Vec::new();
     for backend in Backend::ALL {
         match devices_of(backend) {
             Ok(entries) => all.extend(entries.into_iter().map(|entry| (entry, 1))),
-            Err(missing) if std::env::var_os("CI").is_some() => panic!("{}: {}", backend.name(), missing.why),
+            Err(missing) if backend.is_built() && std::env::var_os("CI").is_some() => panic!("{}: {}", backend.name(), missing.why),
             Err(missing) => println!("skipped {}: {}", backend.name(), missing.why),
         }
     }
