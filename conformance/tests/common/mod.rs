@@ -12,7 +12,9 @@ pub fn devices() -> Vec<(DeviceEntry, usize)> {
     for backend in Backend::ALL {
         match devices_of(backend) {
             Ok(entries) => all.extend(entries.into_iter().map(|entry| (entry, 1))),
-            Err(missing) if backend.is_built() && std::env::var_os("CI").is_some() => panic!("{}: {}", backend.name(), missing.why),
+            Err(missing) if backend.is_built() && std::env::var_os("CI").is_some() => {
+                panic!("{}: {}", backend.name(), missing.why)
+            }
             Err(missing) => println!("skipped {}: {}", backend.name(), missing.why),
         }
     }
