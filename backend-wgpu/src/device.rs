@@ -19,12 +19,17 @@ const ITEMS_A_GROUP: u32 = 64;
 const MOST_GROUPS: u32 = 65535;
 /// Dispatches after which they are submitted although nobody waits for them.
 const MOST_PENDING: u32 = 256;
-/// Draws a dispatch: on a GPU, so many that few dispatches are empty; on llvmpipe, so few that its limit of
-/// 65535 loop iterations a dispatch is far away (see `draw.wgsl`).
-const SLICE: u32 = 8192;
-const SLICE_ON_CPU: u32 = 64;
-/// Place and size of the mark in `Slice` that says that a loop was cut.
-const TRUNCATED: std::ops::Range<u64> = 12..16;
+/// Pixels a side of the tile that one group draws.
+const TILE: u32 = 16;
+/// How a GPU draws: all at once.
+const ON_GPU: Rounds = Rounds { enough: 128, budget: u32::MAX };
+/// How llvmpipe draws: in rounds of a hundred or so draws a tile, far from its limit of 65535 loop iterations
+/// a dispatch (see `draw.wgsl`).
+const ON_CPU: Rounds = Rounds { enough: 64, budget: 1 };
+/// Place in `rounds.wgsl` of the mark that says that a loop was cut, and of what each draw starts anew.
+const TRUNCATED: u64 = 8;
+const RESTARTED: u64 = 12;
+const PROGRESS: u64 = 20;
 /// Largest piece that is read back at once, in bytes.
 const STAGING_BYTES: u64 = 4 << 20;
 const LOOPS_CUT: &str = "its driver ended a loop early (Mesa's llvmpipe does after 65535 iterations), so the image \
@@ -39,9 +44,10 @@ pub struct WgpuDevice {
     kernels: [Kernel; Stage::ALL.len()],
     arrange: Kernel,
     arrange_draw: Kernel,
-    /// Which draws the dispatch works on.
-    slice: wgpu::Buffer,
-    slice_size: u32,
+    /// How the fused stage runs.
+    rounds: Rounds,
+    /// The same, and how far it is, on the device: as `Rounds` in `rounds.wgsl`.
+    progress: wgpu::Buffer,
     /// Number of groups of an indirect dispatch.
     groups: wgpu::Buffer,
     staging: wgpu::Buffer,
@@ -71,7 +77,7 @@ impl WgpuDevice {
     fn with_kernels(adapter: &wgpu::Adapter, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
         let name = describe(adapter).name;
         let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let slice_size = if software { SLICE_ON_CPU } else { SLICE };
+        let rounds = if software { ON_CPU } else { ON_GPU };
         let (device, queue) = request(adapter, &name)?;
         let failure = Arc::default();
         listen(&device, &failure);
@@ -84,8 +90,8 @@ impl WgpuDevice {
             kernels: kernels?.try_into().unwrap_or_else(|_| unreachable!("a kernel a stage")),
             arrange: kernels::arrange(&device, edit)?,
             arrange_draw: kernels::arrange_draw(&device, edit)?,
-            slice: slice(&device, &queue, slice_size),
-            slice_size,
+            progress: progress(&device, &queue, rounds, 1),
+            rounds,
             groups: memory(&device, "groups", 12, usage),
             staging: memory(&device, "staging", STAGING_BYTES + 4, read),
             device,
@@ -120,9 +126,9 @@ impl WgpuDevice {
     /// Copies `out.len()` bytes of `from` at `offset` to the host; at most [`STAGING_BYTES`].
     fn read_piece(&mut self, from: &wgpu::Buffer, offset: u64, out: &mut [u8]) -> Result<(), WgpuError> {
         let bytes = out.len() as u64;
-        let (staging, slice) = (self.staging.clone(), self.slice.clone());
+        let (staging, progress) = (self.staging.clone(), self.progress.clone());
         self.encoder().copy_buffer_to_buffer(from, offset, &staging, 0, bytes);
-        self.encoder().copy_buffer_to_buffer(&slice, TRUNCATED.start, &staging, STAGING_BYTES, 4);
+        self.encoder().copy_buffer_to_buffer(&progress, TRUNCATED, &staging, STAGING_BYTES, 4);
         self.submit();
         let (done, answer) = mpsc::channel();
         self.staging.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -166,15 +172,17 @@ impl WgpuDevice {
         self.pending += 1;
     }
 
-    /// Records the fused stage, slice after slice of the draw buffer; those beyond the draws have no groups.
-    fn draw(&mut self, buffers: &[&wgpu::Buffer], room: u64) {
-        let (slice, groups) = (self.slice.clone(), self.groups.clone());
-        let next = 8;
-        self.encoder().clear_buffer(&slice, next, Some(4));
-        let arranged = [buffers[0], buffers[3], &slice, &groups];
-        let drawn: Vec<_> = buffers.iter().copied().chain([&slice]).collect();
-        for _ in 0..room.div_ceil(u64::from(self.slice_size)) {
-            self.record(Which::ArrangeDraw, &arranged, Groups::Known(1, 1));
+    /// Records the fused stage in as many rounds as it can need; those that it does not have no groups.
+    fn draw(&mut self, buffers: &[&wgpu::Buffer], room: u64, (width, height): (u32, u32)) {
+        let tiles = u64::from(width.div_ceil(TILE)) * u64::from(height.div_ceil(TILE));
+        if self.progress.size() < PROGRESS + 4 * tiles {
+            self.progress = progress(&self.device, &self.queue, self.rounds, tiles);
+        }
+        let (progress, groups) = (self.progress.clone(), self.groups.clone());
+        self.encoder().clear_buffer(&progress, RESTARTED, None);
+        let drawn: Vec<_> = buffers.iter().copied().chain([&progress]).collect();
+        for _ in 0..self.rounds.most(room) {
+            self.record(Which::ArrangeDraw, &[buffers[0], &progress, &groups], Groups::Known(1, 1));
             self.record(Which::Stage(Stage::Draw), &drawn, Groups::Arranged);
         }
     }
@@ -193,6 +201,20 @@ impl WgpuDevice {
             }
             _ => Err(WgpuError::Bindings { stage: stage.name() }),
         }
+    }
+}
+
+/// How the fused stage is cut into rounds; see `rounds.wgsl`.
+#[derive(Clone, Copy, Debug)]
+struct Rounds {
+    enough: u32,
+    budget: u32,
+}
+
+impl Rounds {
+    /// Most rounds for `room` draws: each but the last draws more than `enough`, all of them within the budget.
+    fn most(self, room: u64) -> u64 {
+        if self.budget == u32::MAX { 1 } else { room.div_ceil(u64::from(self.enough)) }
     }
 }
 
@@ -253,12 +275,12 @@ fn memory(device: &wgpu::Device, label: &str, size: u64, usage: wgpu::BufferUsag
     device.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false })
 }
 
-/// The slice, empty, with its size in place.
-fn slice(device: &wgpu::Device, queue: &wgpu::Queue, size: u32) -> wgpu::Buffer {
+/// The state of the fused stage for `tiles` tiles.
+fn progress(device: &wgpu::Device, queue: &wgpu::Queue, rounds: Rounds, tiles: u64) -> wgpu::Buffer {
     let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-    let slice = memory(device, "slice", TRUNCATED.end, usage);
-    queue.write_buffer(&slice, 0, bytemuck::cast_slice(&[0, size, 0, 0]));
-    slice
+    let progress = memory(device, "progress", PROGRESS + 4 * tiles, usage);
+    queue.write_buffer(&progress, 0, bytemuck::cast_slice(&[rounds.enough, rounds.budget]));
+    progress
 }
 
 fn bind(device: &wgpu::Device, kernel: &Kernel, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
@@ -328,8 +350,8 @@ impl Device for WgpuDevice {
             buffer.check_layout(binding.layout)?;
         }
         let memories: Vec<_> = buffers.iter().map(|buffer| buffer.memory()).collect();
-        if let (Stage::Draw, Items::Image { .. }) = (stage, items) {
-            self.draw(&memories, buffers[4].entries());
+        if let (Stage::Draw, Items::Image { width, height }) = (stage, items) {
+            self.draw(&memories, buffers[4].entries(), (width, height));
             return self.checked();
         }
         let groups = self.groups(stage, items, buffers)?;

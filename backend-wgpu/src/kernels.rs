@@ -39,7 +39,7 @@ files! {
     DRAW: "draw",
     KNOWN_ANSWERS: "known_answers",
     ARRANGE: "arrange",
-    SLICE: "slice",
+    ROUNDS: "rounds",
     ARRANGE_DRAW: "arrange_draw",
 }
 
@@ -51,9 +51,9 @@ const fn files(stage: Stage) -> &'static [File] {
         Stage::Bound => &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND],
         Stage::Scan => &[GEN, SCAN],
         Stage::Split => &[GEN, ITEMS, SURFACE, SPLIT],
-        Stage::Draw => {
-            &[GEN, SLICE, NUM, SURFACE, BEZIER, NET, PROJECT, DICE, SHADE, SEAM, TRIANGLE, CLIP, SAMPLE, DRAW]
-        }
+        Stage::Draw => &[
+            GEN, ROUNDS, NUM, SURFACE, BEZIER, NET, PROJECT, DICE, SHADE, SEAM, TRIANGLE, CLIP, SAMPLE, DRAW,
+        ],
         Stage::Flush => &[GEN, FLUSH],
         Stage::KnownAnswers => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
     }
@@ -74,7 +74,7 @@ pub(crate) fn stage(
 ) -> Result<Kernel, WgpuError> {
     let mut access: Vec<Access> = stage.bindings().iter().map(|binding| binding.access).collect();
     if stage == Stage::Draw {
-        access.push(Access::Write); // the slice
+        access.push(Access::Write); // the rounds
     }
     compile(device, stage.name(), &source(files(stage), edit), &access)
 }
@@ -84,10 +84,10 @@ pub(crate) fn arrange(device: &wgpu::Device, edit: Option<Edit<'_>>) -> Result<K
     compile(device, "arrange", &source(&[GEN, ITEMS, ARRANGE], edit), &[Access::Read, Access::Write])
 }
 
-/// The kernel that moves on to the next slice of draws.
+/// The kernel that starts a round of the fused stage.
 pub(crate) fn arrange_draw(device: &wgpu::Device, edit: Option<Edit<'_>>) -> Result<Kernel, WgpuError> {
-    let access = [Access::Read, Access::Read, Access::Write, Access::Write];
-    compile(device, "arrange_draw", &source(&[GEN, SLICE, ARRANGE_DRAW], edit), &access)
+    let access = [Access::Read, Access::Write, Access::Write];
+    compile(device, "arrange_draw", &source(&[GEN, ROUNDS, ARRANGE_DRAW], edit), &access)
 }
 
 fn source(files: &[File], edit: Option<Edit<'_>>) -> String {

@@ -7,18 +7,19 @@
 @group(0) @binding(4) var<storage, read> draws: array<Draw>;
 @group(0) @binding(5) var<storage, read_write> samples: array<Sample>;
 @group(0) @binding(6) var<storage, read_write> colours: array<Colour>;
-@group(0) @binding(7) var<storage, read_write> slice: Slice;
+@group(0) @binding(7) var<storage, read_write> rounds: Rounds;
 
 const GROUP: u32 = 64u;
-// Draws that are looked through at once.
-const CHUNK: u32 = 256u;
+// Most draws that are listed at once.
+const CHOSEN: u32 = 256u;
 
-// Draws of the chunk that can touch the tile, in any order: the nearest wins, whoever comes first.
-var<workgroup> chosen: array<u32, CHUNK>;
+// Draws that can touch the tile, in any order: the nearest wins, whoever comes first.
+var<workgroup> chosen: array<u32, CHOSEN>;
 var<workgroup> chosen_count: atomic<u32>;
 var<workgroup> chosen_shared: u32;
 var<workgroup> faces_eye_shared: u32;
-var<workgroup> slice_shared: vec2<u32>;
+// First draw to be looked at, and what `rounds` has under `enough` and `budget`.
+var<workgroup> round_shared: vec3<u32>;
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -28,19 +29,33 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     tile = vec4<i32>(
         left, imin(left + i32(TILE), i32(frame.width)), top, imin(top + i32(TILE), i32(frame.height)));
     let waiting = control.waiting + control.fresh;
+    let place = group.y * ((frame.width + TILE - 1u) / TILE) + group.x;
     if lane == 0u {
-        slice_shared = vec2<u32>(slice.first, slice.first + slice.size);
+        round_shared = vec3<u32>(rounds.progress[place], rounds.enough, rounds.budget);
     }
-    let range = workgroupUniformLoad(&slice_shared);
-    let end = select(range.y, waiting, waiting < range.y);
-    for (var first = range.x; first < end; first += CHUNK) {
-        let listed = choose(first, end, lane);
+    let round = workgroupUniformLoad(&round_shared);
+    var first = round.x;
+    var drawn = 0u;
+    while first < waiting && drawn < round.z {
+        var listed = 0u;
+        clear_list(lane);
+        while first < waiting && listed <= round.y {
+            listed = choose(first + lane, waiting, lane);
+            first += GROUP;
+        }
         for (var index = 0u; index < listed; index++) {
             draw_one(workgroupUniformLoad(&chosen[index]), lane);
         }
+        drawn += listed;
+    }
+    if lane == 0u {
+        rounds.progress[place] = first;
+        if first < waiting {
+            rounds.unfinished = 1u;
+        }
     }
     if loops_were_cut() {
-        slice.truncated = 1u;
+        rounds.truncated = 1u;
     }
 }
 
@@ -54,16 +69,17 @@ fn loops_were_cut() -> bool {
     return rounds != 4u;
 }
 
-// Lists the draws of a chunk that can touch the tile; gives their number.
-fn choose(first: u32, count: u32, lane: u32) -> u32 {
+fn clear_list(lane: u32) {
     if lane == 0u {
         atomicStore(&chosen_count, 0u);
     }
     workgroupBarrier();
-    for (var item = first + lane; item < first + CHUNK; item += GROUP) {
-        if item < count && can_touch_tile(item) {
-            chosen[atomicAdd(&chosen_count, 1u)] = item;
-        }
+}
+
+// Lists a draw if it can touch the tile; gives the number of draws listed so far by the whole group.
+fn choose(item: u32, waiting: u32, lane: u32) -> u32 {
+    if item < waiting && can_touch_tile(item) {
+        chosen[atomicAdd(&chosen_count, 1u)] = item;
     }
     workgroupBarrier();
     if lane == 0u {
