@@ -82,6 +82,8 @@ impl Backend {
 
     pub(crate) fn unavailable(self, why: String) -> Error {
         let remedy = match self {
+            Self::Wgpu if !self.is_built() => "use --backend cpu, or build with --features wgpu",
+            Self::Ocl if !self.is_built() => "use --backend cpu, or build with --features ocl",
             _ if Self::Cpu.is_built() => "use --backend cpu",
             _ => "build with the feature `cpu`, which is on by default",
         };

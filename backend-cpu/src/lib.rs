@@ -7,6 +7,3 @@ mod stages;
 
 pub use buffer::CpuBuffer;
 pub use device::{CpuDevice, CpuError};
-
-/// Whether this backend can render.
-pub const AVAILABLE: bool = true;

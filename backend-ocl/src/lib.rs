@@ -15,6 +15,3 @@ pub use device::{Edit, OclDevice, OpenOptions};
 pub use error::OclError;
 pub use list::{DeviceInfo, devices};
 pub use program::FILES;
-
-/// Whether this backend can render.
-pub const AVAILABLE: bool = true;

@@ -14,6 +14,3 @@ pub use device::WgpuDevice;
 pub use error::WgpuError;
 pub use info::{DeviceInfo, devices};
 pub use kernels::Edit;
-
-/// Whether this backend can render.
-pub const AVAILABLE: bool = true;

@@ -1,5 +1,5 @@
-//! Every scene of the repository at three sizes with three batch sizes on every device of every backend: the
-//! same bits as the snapshot, of which there is one for all.
+//! Every scene of the repository at three sizes with three batch sizes on every device of every backend built
+//! in (the CPU, unless features are switched on in Cargo.toml): the same bits as the snapshot, of which there is one for all.
 //!
 //! `INSTA_UPDATE=always cargo test -p micropoly-conformance` accepts new snapshots after a change that is
 //! meant to change images or counts.

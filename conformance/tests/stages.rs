@@ -1,4 +1,4 @@
-//! Every stage alone on every device, bit by bit against the CPU with one thread; and the comparison itself:
+//! Every stage alone on every device of the backends built in, bit by bit against the CPU with one thread; and the comparison itself:
 //! its inputs matter, and it finds a single wrong bit.
 
 mod common;
