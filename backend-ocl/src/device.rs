@@ -162,7 +162,7 @@ impl Grid {
             // How many are taken only the device knows; the rest of the batch does nothing.
             (Stage::Bound, Items::Taken) => Some(Self::lines(buffers[5].entries(), None)),
             (Stage::Split, Items::Taken) => Some(Self::lines(buffers[1].entries(), None)),
-            (Stage::Draw, Items::Image { width, height }) => {
+            (Stage::Draw, Items::Image { width, height, .. }) => {
                 let tiles = |pixels: u32| (pixels as usize).div_ceil(TILE);
                 Some(Self { groups: [tiles(width), tiles(height)], count: None })
             }

@@ -9,9 +9,10 @@ use micropoly_core::known;
 use micropoly_core::stage::{Items, Stage};
 
 use crate::buffer::WgpuBuffer;
+use crate::chunk::{self, Chunk};
 use crate::error::WgpuError;
 use crate::info::{adapters, describe, instance};
-use crate::kernels::{self, Edit, Kernel};
+use crate::kernels::{self, Edit, Kernel, Kind, Which};
 
 /// Items that one group works on, in stages that have an item an invocation.
 const ITEMS_A_GROUP: u32 = 64;
@@ -19,17 +20,6 @@ const ITEMS_A_GROUP: u32 = 64;
 const MOST_GROUPS: u32 = 65535;
 /// Dispatches after which they are submitted although nobody waits for them.
 const MOST_PENDING: u32 = 256;
-/// Pixels a side of the tile that one group draws.
-const TILE: u32 = 16;
-/// How a GPU draws: all at once.
-const ON_GPU: Rounds = Rounds { enough: 128, budget: u32::MAX };
-/// How llvmpipe draws: in rounds of a hundred or so draws a tile, far from its limit of 65535 loop iterations
-/// a dispatch (see `draw.wgsl`).
-const ON_CPU: Rounds = Rounds { enough: 64, budget: 1 };
-/// Place in `rounds.wgsl` of the mark that says that a loop was cut, and of what each draw starts anew.
-const TRUNCATED: u64 = 8;
-const RESTARTED: u64 = 12;
-const PROGRESS: u64 = 20;
 /// Largest piece that is read back at once, in bytes.
 const STAGING_BYTES: u64 = 4 << 20;
 const LOOPS_CUT: &str = "its driver ended a loop early (Mesa's llvmpipe does after 65535 iterations), so the image \
@@ -41,14 +31,11 @@ pub struct WgpuDevice {
     name: String,
     device: wgpu::Device,
     queue: wgpu::Queue,
-    kernels: [Kernel; Stage::ALL.len()],
-    arrange: Kernel,
-    arrange_draw: Kernel,
-    /// How the fused stage runs.
-    rounds: Rounds,
-    /// The same, and how far it is, on the device: as `Rounds` in `rounds.wgsl`.
-    progress: wgpu::Buffer,
-    /// Number of groups of an indirect dispatch.
+    /// As [`Which::ALL`].
+    kernels: Vec<Kernel>,
+    /// What the fused stage needs for itself.
+    chunk: Chunk,
+    /// Numbers of groups of indirect dispatches.
     groups: wgpu::Buffer,
     staging: wgpu::Buffer,
     encoder: Option<wgpu::CommandEncoder>,
@@ -77,29 +64,26 @@ impl WgpuDevice {
     fn with_kernels(adapter: &wgpu::Adapter, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
         let name = describe(adapter).name;
         let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let rounds = if software { ON_CPU } else { ON_GPU };
         let (device, queue) = request(adapter, &name)?;
         let failure = Arc::default();
         listen(&device, &failure);
         let kernels: Result<Vec<Kernel>, WgpuError> =
-            Stage::ALL.into_iter().map(|stage| kernels::stage(&device, stage, edit)).collect();
+            Which::ALL.into_iter().map(|which| kernels::compiled(&device, which, edit)).collect();
+        let allocated = Arc::default();
         let usage = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE;
         let read = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
         Ok(Self {
             name,
-            kernels: kernels?.try_into().unwrap_or_else(|_| unreachable!("a kernel a stage")),
-            arrange: kernels::arrange(&device, edit)?,
-            arrange_draw: kernels::arrange_draw(&device, edit)?,
-            progress: progress(&device, &queue, rounds, 1),
-            rounds,
-            groups: memory(&device, "groups", 12, usage),
+            kernels: kernels?,
+            chunk: Chunk::new(&device, software, &allocated),
+            groups: memory(&device, "groups", 24, usage),
             staging: memory(&device, "staging", STAGING_BYTES + 4, read),
             device,
             queue,
             encoder: None,
             pending: 0,
             failure,
-            allocated: Arc::default(),
+            allocated,
         })
     }
 
@@ -126,9 +110,9 @@ impl WgpuDevice {
     /// Copies `out.len()` bytes of `from` at `offset` to the host; at most [`STAGING_BYTES`].
     fn read_piece(&mut self, from: &wgpu::Buffer, offset: u64, out: &mut [u8]) -> Result<(), WgpuError> {
         let bytes = out.len() as u64;
-        let (staging, progress) = (self.staging.clone(), self.progress.clone());
+        let (staging, rounds) = (self.staging.clone(), self.chunk.rounds.clone());
         self.encoder().copy_buffer_to_buffer(from, offset, &staging, 0, bytes);
-        self.encoder().copy_buffer_to_buffer(&progress, TRUNCATED, &staging, STAGING_BYTES, 4);
+        self.encoder().copy_buffer_to_buffer(&rounds, chunk::TRUNCATED, &staging, STAGING_BYTES, 4);
         self.submit();
         let (done, answer) = mpsc::channel();
         self.staging.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -153,11 +137,7 @@ impl WgpuDevice {
 
     /// Records one kernel.
     fn record(&mut self, which: Which, buffers: &[&wgpu::Buffer], groups: Groups) {
-        let kernel = match which {
-            Which::Stage(stage) => &self.kernels[stage as usize],
-            Which::Arrange => &self.arrange,
-            Which::ArrangeDraw => &self.arrange_draw,
-        };
+        let kernel = &self.kernels[which.index()];
         let bind_group = bind(&self.device, kernel, buffers);
         let device = &self.device;
         let encoder = self.encoder.get_or_insert_with(|| device.create_command_encoder(&Default::default()));
@@ -167,24 +147,51 @@ impl WgpuDevice {
         match groups {
             Groups::Known(columns, rows) => pass.dispatch_workgroups(columns, rows, 1),
             Groups::Arranged => pass.dispatch_workgroups_indirect(&self.groups, 0),
+            Groups::ArrangedSecond => pass.dispatch_workgroups_indirect(&self.groups, 12),
         }
         drop(pass);
         self.pending += 1;
     }
 
-    /// Records the fused stage in as many rounds as it can need; those that it does not have no groups.
-    fn draw(&mut self, buffers: &[&wgpu::Buffer], room: u64, (width, height): (u32, u32)) {
-        let tiles = u64::from(width.div_ceil(TILE)) * u64::from(height.div_ceil(TILE));
-        if self.progress.size() < PROGRESS + 4 * tiles {
-            self.progress = progress(&self.device, &self.queue, self.rounds, tiles);
+    /// Runs the fused stage, chunk by chunk.
+    fn draw(&mut self, buffers: &DrawBuffers<'_>) -> Result<(), WgpuError> {
+        self.chunk.fit(&self.device, &self.queue, buffers.image, buffers.rate)?;
+        let rounds = self.chunk.rounds.clone();
+        self.encoder().clear_buffer(&rounds, chunk::BEGUN, Some(4));
+        for _ in 0..buffers.room.div_ceil(chunk::DRAWS) {
+            self.draw_chunk(buffers);
+            while self.chunk.in_rounds && self.is_unfinished()? {
+                self.sample_tiles(buffers);
+            }
         }
-        let (progress, groups) = (self.progress.clone(), self.groups.clone());
-        self.encoder().clear_buffer(&progress, RESTARTED, None);
-        let drawn: Vec<_> = buffers.iter().copied().chain([&progress]).collect();
-        for _ in 0..self.rounds.most(room) {
-            self.record(Which::ArrangeDraw, &[buffers[0], &progress, &groups], Groups::Known(1, 1));
-            self.record(Which::Stage(Stage::Draw), &drawn, Groups::Arranged);
-        }
+        Ok(())
+    }
+
+    fn draw_chunk(&mut self, b: &DrawBuffers<'_>) {
+        let (grids, rounds, groups) =
+            (self.chunk.grids.clone(), self.chunk.rounds.clone(), self.groups.clone());
+        let arranged = [b.frame, b.control, b.draws, &grids, &rounds, &groups];
+        self.record(Which::ArrangeDraw, &arranged, Groups::Known(1, 1));
+        self.record(Which::Draw, &[b.frame, b.objects, b.patches, b.draws, &grids], Groups::Arranged);
+        self.sample_tiles(b);
+    }
+
+    /// One round of the tiles.
+    fn sample_tiles(&mut self, b: &DrawBuffers<'_>) {
+        let (grids, rounds, groups) =
+            (self.chunk.grids.clone(), self.chunk.rounds.clone(), self.groups.clone());
+        self.record(Which::ArrangeTiles, &[b.frame, &grids, &rounds, &groups], Groups::Known(1, 1));
+        let tiles = [b.frame, b.draws, &grids, b.samples, b.colours, &rounds];
+        self.record(Which::Tiles(Kind::Near), &tiles, Groups::Arranged);
+        self.record(Which::Tiles(Kind::General), &tiles, Groups::ArrangedSecond);
+    }
+
+    /// Has any tile draws left?
+    fn is_unfinished(&mut self) -> Result<bool, WgpuError> {
+        let rounds = self.chunk.rounds.clone();
+        let mut unfinished = [0; 8];
+        self.read_piece(&rounds, chunk::UNFINISHED, &mut unfinished)?;
+        Ok(unfinished != [0; 8])
     }
 
     /// Number of groups of a stage; arranges them on the device if only it knows them.
@@ -204,25 +211,21 @@ impl WgpuDevice {
     }
 }
 
-/// How the fused stage is cut into rounds; see `rounds.wgsl`.
-#[derive(Clone, Copy, Debug)]
-struct Rounds {
-    enough: u32,
-    budget: u32,
-}
-
-impl Rounds {
-    /// Most rounds for `room` draws: each but the last draws more than `enough`, all of them within the budget.
-    fn most(self, room: u64) -> u64 {
-        if self.budget == u32::MAX { 1 } else { room.div_ceil(u64::from(self.enough)) }
-    }
-}
-
-/// A kernel of the device.
-enum Which {
-    Stage(Stage),
-    Arrange,
-    ArrangeDraw,
+/// The buffers of the fused stage, in the order of its bindings, and its sizes.
+struct DrawBuffers<'a> {
+    frame: &'a wgpu::Buffer,
+    objects: &'a wgpu::Buffer,
+    patches: &'a wgpu::Buffer,
+    control: &'a wgpu::Buffer,
+    draws: &'a wgpu::Buffer,
+    samples: &'a wgpu::Buffer,
+    colours: &'a wgpu::Buffer,
+    /// Entries of the draw buffer.
+    room: u64,
+    /// Width and height in pixels.
+    image: (u32, u32),
+    /// Dice rate.
+    rate: u32,
 }
 
 /// How many groups run.
@@ -231,6 +234,8 @@ enum Groups {
     Known(u32, u32),
     /// What the arranging kernel wrote.
     Arranged,
+    /// What it wrote as its second answer.
+    ArrangedSecond,
 }
 
 /// Groups for `count` items; mirrors `arrange.wgsl`.
@@ -270,17 +275,14 @@ fn listen(device: &wgpu::Device, failure: &Arc<Mutex<Option<String>>>) {
     });
 }
 
-fn memory(device: &wgpu::Device, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+pub(crate) fn memory(
+    device: &wgpu::Device,
+    label: &str,
+    size: u64,
+    usage: wgpu::BufferUsages,
+) -> wgpu::Buffer {
     let label = Some(label);
     device.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false })
-}
-
-/// The state of the fused stage for `tiles` tiles.
-fn progress(device: &wgpu::Device, queue: &wgpu::Queue, rounds: Rounds, tiles: u64) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-    let progress = memory(device, "progress", PROGRESS + 4 * tiles, usage);
-    queue.write_buffer(&progress, 0, bytemuck::cast_slice(&[rounds.enough, rounds.budget]));
-    progress
 }
 
 fn bind(device: &wgpu::Device, kernel: &Kernel, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
@@ -350,8 +352,24 @@ impl Device for WgpuDevice {
             buffer.check_layout(binding.layout)?;
         }
         let memories: Vec<_> = buffers.iter().map(|buffer| buffer.memory()).collect();
-        if let (Stage::Draw, Items::Image { width, height }) = (stage, items) {
-            self.draw(&memories, buffers[4].entries(), (width, height));
+        if let (Stage::Draw, Items::Image { width, height, rate }) = (stage, items) {
+            let &[frame, objects, patches, control, draws, samples, colours] = &memories[..] else {
+                return Err(WgpuError::Bindings { stage: stage.name() });
+            };
+            let room = buffers[4].entries();
+            let image = (width, height);
+            self.draw(&DrawBuffers {
+                frame,
+                objects,
+                patches,
+                control,
+                draws,
+                samples,
+                colours,
+                room,
+                image,
+                rate,
+            })?;
             return self.checked();
         }
         let groups = self.groups(stage, items, buffers)?;

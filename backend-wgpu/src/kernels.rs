@@ -7,8 +7,8 @@ use crate::error::WgpuError;
 /// Changes a kernel file before it is compiled, given its name and source: for mutation tests.
 pub type Edit<'a> = &'a dyn Fn(&str, &str) -> String;
 
-/// One WGSL file.
-type File = (&'static str, &'static str);
+/// One WGSL file: its name and its text.
+pub type File = (&'static str, &'static str);
 
 macro_rules! files {
     ($($constant:ident: $name:literal,)*) => {
@@ -31,31 +31,143 @@ files! {
     TRIANGLE: "triangle",
     CLIP: "clip",
     SAMPLE: "sample",
+    NEAR: "near",
+    GENERAL: "general",
+    GRIDS: "grids",
+    ROUNDS: "rounds",
+    DRAW: "draw",
+    TILES: "tiles",
+    ARRANGE_DRAW: "arrange_draw",
+    ARRANGE_TILES: "arrange_tiles",
     SEED: "seed",
     TAKE: "take",
     FLUSH: "flush",
     SCAN: "scan",
     SPLIT: "split",
-    DRAW: "draw",
     KNOWN_ANSWERS: "known_answers",
     ARRANGE: "arrange",
-    ROUNDS: "rounds",
-    ARRANGE_DRAW: "arrange_draw",
 }
 
-/// The files of a stage.
-const fn files(stage: Stage) -> &'static [File] {
-    match stage {
-        Stage::Seed => &[GEN, ITEMS, SEED],
-        Stage::Take => &[GEN, TAKE],
-        Stage::Bound => &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND],
-        Stage::Scan => &[GEN, SCAN],
-        Stage::Split => &[GEN, ITEMS, SURFACE, SPLIT],
-        Stage::Draw => &[
-            GEN, ROUNDS, NUM, SURFACE, BEZIER, NET, PROJECT, DICE, SHADE, SEAM, TRIANGLE, CLIP, SAMPLE, DRAW,
-        ],
-        Stage::Flush => &[GEN, FLUSH],
-        Stage::KnownAnswers => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
+/// The kernels: one a stage, those into which the fused stage is cut, and those that count groups.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// A stage other than the fused one.
+    Stage(Stage),
+    /// Turns a batch into a number of groups.
+    Arrange,
+    /// The next chunk of draws.
+    ArrangeDraw,
+    /// Dices and shades a chunk.
+    Draw,
+    /// The next round of the tiles.
+    ArrangeTiles,
+    /// Samples a chunk tile by tile.
+    Tiles(Kind),
+}
+
+/// A kind of grids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Small and whole: 32-bit integers do, nothing is clipped.
+    Near,
+    /// Any other.
+    General,
+}
+
+impl Which {
+    /// All kernels, in the order of [`Which::index`].
+    pub const ALL: [Self; 13] = [
+        Self::Stage(Stage::Seed),
+        Self::Stage(Stage::Take),
+        Self::Stage(Stage::Bound),
+        Self::Stage(Stage::Scan),
+        Self::Stage(Stage::Split),
+        Self::Stage(Stage::Flush),
+        Self::Stage(Stage::KnownAnswers),
+        Self::Arrange,
+        Self::ArrangeDraw,
+        Self::Draw,
+        Self::ArrangeTiles,
+        Self::Tiles(Kind::Near),
+        Self::Tiles(Kind::General),
+    ];
+
+    /// Its place in [`Which::ALL`].
+    pub(crate) fn index(self) -> usize {
+        Self::ALL.iter().position(|which| *which == self).expect("every kernel is in the list")
+    }
+
+    /// Its name in messages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stage(stage) => stage.name(),
+            Self::Arrange => "arrange",
+            Self::ArrangeDraw => "arrange_draw",
+            Self::Draw => "draw",
+            Self::ArrangeTiles => "arrange_tiles",
+            Self::Tiles(Kind::Near) => "tiles (near)",
+            Self::Tiles(Kind::General) => "tiles (general)",
+        }
+    }
+
+    /// The stage that it is part of; none if it only counts groups for several.
+    #[must_use]
+    pub const fn stage(self) -> Option<Stage> {
+        match self {
+            Self::Stage(stage) => Some(stage),
+            Self::Arrange => None,
+            Self::ArrangeDraw | Self::Draw | Self::ArrangeTiles | Self::Tiles(_) => Some(Stage::Draw),
+        }
+    }
+
+    /// The files that it is put together from, in order.
+    #[must_use]
+    pub const fn files(self) -> &'static [File] {
+        match self {
+            Self::Stage(Stage::Seed) => &[GEN, ITEMS, SEED],
+            Self::Stage(Stage::Take) => &[GEN, TAKE],
+            Self::Stage(Stage::Bound) => &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND],
+            Self::Stage(Stage::Scan) => &[GEN, SCAN],
+            Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, SPLIT],
+            Self::Stage(Stage::Flush) => &[GEN, FLUSH],
+            Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
+            Self::Arrange => &[GEN, ITEMS, ARRANGE],
+            Self::ArrangeDraw => &[GEN, GRIDS, ROUNDS, ARRANGE_DRAW],
+            Self::Stage(Stage::Draw) | Self::Draw => {
+                &[GEN, GRIDS, NUM, SURFACE, BEZIER, NET, PROJECT, TRIANGLE, DICE, SHADE, SEAM, DRAW]
+            }
+            Self::ArrangeTiles => &[GEN, GRIDS, ROUNDS, ARRANGE_TILES],
+            Self::Tiles(Kind::Near) => {
+                &[GEN, GRIDS, NUM, SURFACE, PROJECT, TRIANGLE, SAMPLE, NEAR, ROUNDS, TILES]
+            }
+            Self::Tiles(Kind::General) => {
+                &[GEN, GRIDS, NUM, SURFACE, PROJECT, TRIANGLE, CLIP, SAMPLE, GENERAL, ROUNDS, TILES]
+            }
+        }
+    }
+
+    /// Its buffers: names as in the kernel, and what it does with them.
+    #[must_use]
+    pub fn bindings(self) -> Vec<(&'static str, Access)> {
+        let read =
+            |names: &[&'static str]| names.iter().map(|name| (*name, Access::Read)).collect::<Vec<_>>();
+        let write =
+            |names: &[&'static str]| names.iter().map(|name| (*name, Access::Write)).collect::<Vec<_>>();
+        match self {
+            Self::Stage(stage) => {
+                stage.bindings().iter().map(|binding| (binding.name, binding.access)).collect()
+            }
+            Self::Arrange => [read(&["control"]), write(&["groups"])].concat(),
+            Self::ArrangeDraw => {
+                [read(&["frame", "control", "draws"]), write(&["grids", "rounds", "groups"])].concat()
+            }
+            Self::Draw => [read(&["frame", "objects", "patches", "draws"]), write(&["grids"])].concat(),
+            Self::ArrangeTiles => [read(&["frame", "grids"]), write(&["rounds", "groups"])].concat(),
+            Self::Tiles(_) => {
+                [read(&["frame", "draws", "grids"]), write(&["samples", "colours", "rounds"])].concat()
+            }
+        }
     }
 }
 
@@ -66,28 +178,14 @@ pub(crate) struct Kernel {
     pub(crate) bindings: wgpu::BindGroupLayout,
 }
 
-/// The kernel of a stage.
-pub(crate) fn stage(
+/// Compiles a kernel.
+pub(crate) fn compiled(
     device: &wgpu::Device,
-    stage: Stage,
+    which: Which,
     edit: Option<Edit<'_>>,
 ) -> Result<Kernel, WgpuError> {
-    let mut access: Vec<Access> = stage.bindings().iter().map(|binding| binding.access).collect();
-    if stage == Stage::Draw {
-        access.push(Access::Write); // the rounds
-    }
-    compile(device, stage.name(), &source(files(stage), edit), &access)
-}
-
-/// The kernel that turns a batch into a number of groups.
-pub(crate) fn arrange(device: &wgpu::Device, edit: Option<Edit<'_>>) -> Result<Kernel, WgpuError> {
-    compile(device, "arrange", &source(&[GEN, ITEMS, ARRANGE], edit), &[Access::Read, Access::Write])
-}
-
-/// The kernel that starts a round of the fused stage.
-pub(crate) fn arrange_draw(device: &wgpu::Device, edit: Option<Edit<'_>>) -> Result<Kernel, WgpuError> {
-    let access = [Access::Read, Access::Write, Access::Write];
-    compile(device, "arrange_draw", &source(&[GEN, ROUNDS, ARRANGE_DRAW], edit), &access)
+    let access: Vec<Access> = which.bindings().iter().map(|(_, access)| *access).collect();
+    compile(device, which.name(), &source(which.files(), edit), &access)
 }
 
 fn source(files: &[File], edit: Option<Edit<'_>>) -> String {

@@ -4,6 +4,7 @@
 //! flushes otherwise than core does is refused when it is opened.
 
 mod buffer;
+mod chunk;
 mod device;
 mod error;
 mod info;
@@ -13,4 +14,4 @@ pub use buffer::WgpuBuffer;
 pub use device::WgpuDevice;
 pub use error::WgpuError;
 pub use info::{DeviceInfo, devices};
-pub use kernels::Edit;
+pub use kernels::{Edit, File, Kind, Which};

@@ -230,7 +230,7 @@ fn draws(random: &mut fastrand::Rng) -> Parts {
     let waiting = random.u32(0..=draws.len() as u32);
     let control = Control { waiting, fresh: draws.len() as u32 - waiting, ..Control::default() };
     draws.push(Draw::default());
-    let Frame { width, height, .. } = frame;
+    let Frame { width, height, rate, .. } = frame;
     let pixels = (width * height) as usize;
     let before: Vec<Sample> = (0..pixels).map(|_| sample(random)).collect();
     let buffers = vec![
@@ -242,7 +242,7 @@ fn draws(random: &mut fastrand::Rng) -> Parts {
         words(&before),
         empty::<Colour>(pixels),
     ];
-    (Items::Image { width, height }, buffers)
+    (Items::Image { width, height, rate }, buffers)
 }
 
 /// Nothing, or something that was drawn before at any depth.

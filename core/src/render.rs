@@ -157,7 +157,8 @@ impl FramePlan {
     }
 
     fn draw<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
-        let image = Items::Image { width: self.sizes.width, height: self.sizes.height };
+        let image =
+            Items::Image { width: self.sizes.width, height: self.sizes.height, rate: self.frame.rate };
         let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
         device.dispatch(Stage::Draw, image, &draw)?;
         device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])

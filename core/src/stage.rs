@@ -48,6 +48,8 @@ pub enum Items {
         width: u32,
         /// Height in pixels.
         height: u32,
+        /// Dice rate: [`crate::abi::Frame::rate`].
+        rate: u32,
     },
 }
 

@@ -1,17 +1,51 @@
-// No mirror in core: the next round of the fused stage; one that is not needed has no groups.
+// No mirror in core: the next chunk of draws, its boxes, and the groups that dice it.
 
 @group(0) @binding(0) var<storage, read> frame: Frame;
-@group(0) @binding(1) var<storage, read_write> rounds: Rounds;
-@group(0) @binding(2) var<storage, read_write> groups: array<u32, 3>;
+@group(0) @binding(1) var<storage, read> control: Control;
+@group(0) @binding(2) var<storage, read> draws: array<Draw>;
+@group(0) @binding(3) var<storage, read_write> grids: array<u32>;
+@group(0) @binding(4) var<storage, read_write> rounds: Rounds;
+@group(0) @binding(5) var<storage, read_write> groups: array<u32, 3>;
 
-const TILE: u32 = 16u;
+@compute @workgroup_size(BLOCKS)
+fn main(@builtin(local_invocation_index) block: u32) {
+    let start = rounds.chunk * CHUNK;
+    let waiting = control.waiting + control.fresh;
+    let count = clamped(waiting, start) - start;
+    box_of(block, start, start + count);
+    storageBarrier();
+    if block != 0u {
+        return;
+    }
+    grids[HEAD_START] = start;
+    grids[HEAD_COUNT] = count;
+    grids[HEAD_KINDS] = 0u;
+    grids[HEAD_KINDS + 1u] = 0u;
+    rounds.chunk += 1u;
+    rounds.round = 0u;
+    groups[0] = count;
+    groups[1] = 1u;
+    groups[2] = select(0u, 1u, count > 0u);
+}
 
-@compute @workgroup_size(1)
-fn main() {
-    let wanted = rounds.round == 0u || rounds.unfinished != 0u;
-    rounds.round += 1u;
-    rounds.unfinished = 0u;
-    groups[0] = (frame.width + TILE - 1u) / TILE;
-    groups[1] = (frame.height + TILE - 1u) / TILE;
-    groups[2] = select(0u, 1u, wanted);
+// The end of the chunk that starts here.
+fn clamped(waiting: u32, start: u32) -> u32 {
+    let end = select(waiting, start + CHUNK, waiting > start + CHUNK);
+    return select(end, start, end < start);
+}
+
+// The pixels that the draws of a block can touch, packed as those of a draw.
+fn box_of(block: u32, start: u32, end: u32) {
+    var low = vec2<u32>(0xffffu, 0xffffu);
+    var high = vec2<u32>(0u, 0u);
+    for (var index = 0u; index < BLOCK; index++) {
+        let item = start + block * BLOCK + index;
+        if item < end {
+            let extents = vec2<u32>(draws[item].columns, draws[item].rows);
+            low = select(low, extents & vec2<u32>(0xffffu), (extents & vec2<u32>(0xffffu)) < low);
+            high = select(high, extents >> vec2<u32>(16u), (extents >> vec2<u32>(16u)) > high);
+        }
+    }
+    grids[BOXES + 2u * block] = low.x | (high.x << 16u);
+    grids[BOXES + 2u * block + 1u] = low.y | (high.y << 16u);
 }

@@ -17,16 +17,10 @@ var<workgroup> row_across: array<vec4<f32>, ROW_CURVES>;
 const ROW_CURVES: u32 = 3u * STRIDE;
 // Tangents no longer than this have vanished.
 var<workgroup> flat_length: f32;
-// The grid itself: vertex in row r and column c at (rate + 1) r + c.
+// The grid on screen: vertex in row r and column c at (rate + 1) r + c.
 var<workgroup> grid_x: array<i32, GRID>;
 var<workgroup> grid_y: array<i32, GRID>;
 var<workgroup> grid_w: array<f32, GRID>;
-var<workgroup> grid_px: array<f32, GRID>;
-var<workgroup> grid_py: array<f32, GRID>;
-var<workgroup> grid_pz: array<f32, GRID>;
-var<workgroup> grid_red: array<f32, GRID>;
-var<workgroup> grid_green: array<f32, GRID>;
-var<workgroup> grid_blue: array<f32, GRID>;
 
 // Control points 4 i ..= 4 i + 3 of coordinate k.
 fn net_row(k: u32, i: u32) -> vec4<f32> {
@@ -102,8 +96,8 @@ fn evaluate(row: u32, column: u32) -> Evaluated {
     );
 }
 
-// Vertex number `at` of the grid: position, snapped position, normal, colour.
-fn dice(surface: Surface, object: u32, at: u32) {
+// Vertex number `at` of the grid at word `base`: position, snapped position, normal, colour.
+fn dice(surface: Surface, object: u32, at: u32, base: u32) {
     let row = at / (frame.rate + 1u);
     let column = at % (frame.rate + 1u);
     let evaluated = evaluate(row, column);
@@ -111,17 +105,26 @@ fn dice(surface: Surface, object: u32, at: u32) {
     grid_x[at] = vertex.x;
     grid_y[at] = vertex.y;
     grid_w[at] = vertex.w;
-    grid_px[at] = evaluated.point.x;
-    grid_py[at] = evaluated.point.y;
-    grid_pz[at] = evaluated.point.z;
+    put_screen(base, at, vertex);
+    put_space(base, at, 0u, evaluated.point);
     var normal = unit_normal(evaluated.du, evaluated.dv, flat_length);
     if largest3(normal) < 0.5 {
         normal = mended_normal(surface, row, column);
     }
     let colour = shade(object, evaluated.point, normal);
-    grid_red[at] = colour.x;
-    grid_green[at] = colour.y;
-    grid_blue[at] = colour.z;
+    put_space(base, at, 3u, colour);
+}
+
+fn put_screen(base: u32, at: u32, vertex: Vertex) {
+    grids[screen_base(base, 0u) + at] = bitcast<u32>(vertex.x);
+    grids[screen_base(base, 1u) + at] = bitcast<u32>(vertex.y);
+    grids[screen_base(base, 2u) + at] = bitcast<u32>(vertex.w);
+}
+
+fn put_space(base: u32, at: u32, first: u32, value: vec3<f32>) {
+    grids[space_base(base, first) + at] = bitcast<u32>(value.x);
+    grids[space_base(base, first + 1u) + at] = bitcast<u32>(value.y);
+    grids[space_base(base, first + 2u) + at] = bitcast<u32>(value.z);
 }
 
 fn position_at(u: u32, v: u32) -> vec3<f32> {

@@ -1,125 +1,44 @@
-// The fused stage: mirrors the loop of core's dice, shade and sample over the draws, one group a tile.
+// Mirrors the first half of core's fused stage, dice and shade: one group a draw of the chunk.
 
 @group(0) @binding(0) var<storage, read> frame: Frame;
 @group(0) @binding(1) var<storage, read> objects: array<Object>;
 @group(0) @binding(2) var<storage, read> patches: array<Patch>;
-@group(0) @binding(3) var<storage, read> control: Control;
-@group(0) @binding(4) var<storage, read> draws: array<Draw>;
-@group(0) @binding(5) var<storage, read_write> samples: array<Sample>;
-@group(0) @binding(6) var<storage, read_write> colours: array<Colour>;
-@group(0) @binding(7) var<storage, read_write> rounds: Rounds;
+@group(0) @binding(3) var<storage, read> draws: array<Draw>;
+@group(0) @binding(4) var<storage, read_write> grids: array<u32>;
 
 const GROUP: u32 = 64u;
-// Most draws that are listed at once.
-const CHOSEN: u32 = 256u;
+// A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `near` in `triangle.wgsl`.
+const NARROW: i32 = 16000;
 
-// Draws that can touch the tile, in any order: the nearest wins, whoever comes first.
-var<workgroup> chosen: array<u32, CHOSEN>;
-var<workgroup> chosen_count: atomic<u32>;
-var<workgroup> chosen_shared: u32;
-var<workgroup> faces_eye_shared: u32;
-// First draw to be looked at, and what `rounds` has under `enough` and `budget`.
-var<workgroup> round_shared: vec3<u32>;
+// The box around all vertices and ends of chords.
+var<workgroup> low_x: atomic<i32>;
+var<workgroup> high_x: atomic<i32>;
+var<workgroup> low_y: atomic<i32>;
+var<workgroup> high_y: atomic<i32>;
+// Not 0 if a vertex or an end must be clipped.
+var<workgroup> must_clip: atomic<u32>;
+// Not 0 if a micropolygon may face the eye.
+var<workgroup> faces_eye: atomic<u32>;
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     ZERO = frame.zero;
-    let left = i32(group.x * TILE);
-    let top = i32(group.y * TILE);
-    tile = vec4<i32>(
-        left, imin(left + i32(TILE), i32(frame.width)), top, imin(top + i32(TILE), i32(frame.height)));
-    let waiting = control.waiting + control.fresh;
-    let place = group.y * ((frame.width + TILE - 1u) / TILE) + group.x;
-    if lane == 0u {
-        round_shared = vec3<u32>(rounds.progress[place], rounds.enough, rounds.budget);
-    }
-    let round = workgroupUniformLoad(&round_shared);
-    var first = round.x;
-    var drawn = 0u;
-    while first < waiting && drawn < round.z {
-        var listed = 0u;
-        clear_list(lane);
-        while first < waiting && listed <= round.y {
-            listed = choose(first + lane, waiting, lane);
-            first += GROUP;
-        }
-        for (var index = 0u; index < listed; index++) {
-            draw_one(workgroupUniformLoad(&chosen[index]), lane);
-        }
-        drawn += listed;
-    }
-    if lane == 0u {
-        rounds.progress[place] = first;
-        if first < waiting {
-            rounds.unfinished = 1u;
-        }
-    }
-    if loops_were_cut() {
-        rounds.truncated = 1u;
-    }
-}
-
-// Mesa's llvmpipe silently ends all loops once a shader has gone through 65535 iterations in all; then this
-// one, too, ends early. ZERO keeps compilers from counting it out.
-fn loops_were_cut() -> bool {
-    var rounds = 0u;
-    while rounds < 4u + ZERO {
-        rounds += 1u;
-    }
-    return rounds != 4u;
-}
-
-fn clear_list(lane: u32) {
-    if lane == 0u {
-        atomicStore(&chosen_count, 0u);
-    }
-    workgroupBarrier();
-}
-
-// Lists a draw if it can touch the tile; gives the number of draws listed so far by the whole group.
-fn choose(item: u32, waiting: u32, lane: u32) -> u32 {
-    if item < waiting && can_touch_tile(item) {
-        chosen[atomicAdd(&chosen_count, 1u)] = item;
-    }
-    workgroupBarrier();
-    if lane == 0u {
-        chosen_shared = atomicLoad(&chosen_count);
-    }
-    return workgroupUniformLoad(&chosen_shared);
-}
-
-fn can_touch_tile(item: u32) -> bool {
-    let columns = draws[item].columns;
-    let rows = draws[item].rows;
-    return i32(columns & 0xffffu) < tile.y && i32(columns >> 16u) > tile.x
-        && i32(rows & 0xffffu) < tile.w && i32(rows >> 16u) > tile.z;
-}
-
-// Dices, shades and samples one surface inside the tile.
-fn draw_one(item: u32, lane: u32) {
-    let draw = draws[item];
+    let draw = draws[grids[HEAD_START] + group.x];
     let surface = surface_of(draw);
     let object = patches[draw.patch_id].object;
+    let base = grid_base(group.x);
     prepare(surface, lane);
     workgroupBarrier();
-    for (var at = lane; at < (frame.rate + 1u) * (frame.rate + 1u); at += GROUP) {
-        dice(surface, object, at);
+    for (var at = lane; at < vertices(); at += GROUP) {
+        dice(surface, object, at, base);
+        measure(Vertex(grid_x[at], grid_y[at], grid_w[at]));
     }
-    clear_candidates(lane);
+    put_ends(base, lane);
     workgroupBarrier();
-    if (frame.flags & FLAG_CULL_BACKFACES) != 0u {
-        if faces_away(lane) {
-            return;
-        }
-    }
-    seek_depth = true;
-    sample(lane);
+    seek_faces(lane);
     workgroupBarrier();
-    seek_depth = false;
-    sample(lane);
-    workgroupBarrier();
-    for (var pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
-        resolve(surface, pixel);
+    if lane == 0u {
+        put_flags(base);
     }
 }
 
@@ -127,6 +46,9 @@ fn draw_one(item: u32, lane: u32) {
 fn prepare(surface: Surface, lane: u32) {
     if lane < 48u {
         net[lane] = transformed(surface.patch_id, lane / 16u, lane % 16u);
+    }
+    if lane == 63u {
+        clear_measures();
     }
     for (var column = lane; column <= frame.rate; column += GROUP) {
         prepare_column(surface, column);
@@ -143,53 +65,78 @@ fn prepare(surface: Surface, lane: u32) {
     }
 }
 
-fn clear_candidates(lane: u32) {
-    for (var pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
-        atomicStore(&cand_depth[pixel], 0u);
-        atomicStore(&cand_cell[pixel], 0xffffffffu);
-    }
-    if lane == 0u {
-        atomicStore(&faces_eye, 0u);
+fn clear_measures() {
+    atomicStore(&low_x, 0x7fffffff);
+    atomicStore(&high_x, -0x7fffffff);
+    atomicStore(&low_y, 0x7fffffff);
+    atomicStore(&high_y, -0x7fffffff);
+    atomicStore(&must_clip, 0u);
+    atomicStore(&faces_eye, 0u);
+}
+
+fn measure(vertex: Vertex) {
+    atomicMin(&low_x, vertex.x);
+    atomicMax(&high_x, vertex.x);
+    atomicMin(&low_y, vertex.y);
+    atomicMax(&high_y, vertex.y);
+    if vertex.w == 0.0 {
+        atomicStore(&must_clip, 1u);
     }
 }
 
-// Does no micropolygon of the grid face the eye?
-fn faces_away(lane: u32) -> bool {
-    for (var index = lane; index < frame.rate * frame.rate; index += GROUP) {
+// The ends of the chords beyond the borders; where there is none, nothing reads them.
+fn put_ends(base: u32, lane: u32) {
+    if lane < ENDS && seam_chord[lane / 2u] != 0u {
+        put_screen(base, vertices() + lane, seam_ends[lane]);
+        measure(seam_ends[lane]);
+    }
+}
+
+// Finds out whether a micropolygon may face the eye, if that matters.
+fn seek_faces(lane: u32) {
+    let count = select(0u, frame.rate * frame.rate, (frame.flags & FLAG_CULL_BACKFACES) != 0u);
+    for (var index = lane; index < count; index += GROUP) {
         if may_face_eye(index / frame.rate, index % frame.rate) {
             atomicStore(&faces_eye, 1u);
         }
     }
-    workgroupBarrier();
-    if lane == 0u {
-        faces_eye_shared = atomicLoad(&faces_eye);
-    }
-    return workgroupUniformLoad(&faces_eye_shared) == 0u;
 }
 
-// One pass over all micropolygons and slivers.
-fn sample(lane: u32) {
-    for (var index = lane; index < frame.rate * frame.rate; index += GROUP) {
-        micropolygon(index / frame.rate, index % frame.rate);
+fn kind() -> u32 {
+    if (frame.flags & FLAG_CULL_BACKFACES) != 0u && atomicLoad(&faces_eye) == 0u {
+        return KIND_HIDDEN;
     }
-    for (var task = lane; task < 4u * frame.rate; task += GROUP) {
-        seam_sliver(task);
+    let narrow = atomicLoad(&high_x) - atomicLoad(&low_x) <= NARROW
+        && atomicLoad(&high_y) - atomicLoad(&low_y) <= NARROW;
+    return select(KIND_GENERAL, KIND_NEAR, narrow && atomicLoad(&must_clip) == 0u);
+}
+
+fn put_flags(base: u32) {
+    let found = kind();
+    var flags = found;
+    for (var border = 0u; border < 4u; border++) {
+        let height = firstLeadingBit(seam_longest[border]);
+        let longest = select(height, SEAM_LONGEST, height > SEAM_LONGEST);
+        let bits = longest | select(0u, SEAM_CHORD, seam_chord[border] != 0u);
+        flags |= bits << (SEAM_SHIFT + SEAM_BITS * border);
+    }
+    grids[base] = flags;
+    if found != KIND_HIDDEN {
+        grids[HEAD_KINDS + found - 1u] = 1u;
     }
 }
 
-// Keeps the candidate of a pixel if it is nearer than what is stored; the pixel belongs to this invocation.
-fn resolve(surface: Surface, pixel: u32) {
-    let depth_bits = atomicLoad(&cand_depth[pixel]);
-    if depth_bits == 0u {
-        return;
-    }
-    let cell = atomicLoad(&cand_cell[pixel]);
-    let column = u32(tile.x) + pixel % TILE;
-    let row = u32(tile.z) + pixel / TILE;
-    let place = row * frame.width + column;
-    let found = sample_of(surface, cell, depth_bits);
-    if nearer(found, samples[place]) {
-        samples[place] = found;
-        colours[place] = colour_of(cell);
-    }
+fn diced(row: u32, column: u32) -> Vertex {
+    let at = row * (frame.rate + 1u) + column;
+    return Vertex(grid_x[at], grid_y[at], grid_w[at]);
+}
+
+// May the micropolygon be seen from the front? See `faces_away` in core.
+fn may_face_eye(row: u32, column: u32) -> bool {
+    let a = diced(row, column);
+    let b = diced(row, column + 1u);
+    let c = diced(row + 1u, column + 1u);
+    let d = diced(row + 1u, column);
+    let whole = a.w > 0.0 && b.w > 0.0 && c.w > 0.0 && d.w > 0.0;
+    return !(whole && signed_area(a, b, c) >= 0 && signed_area(a, c, d) >= 0);
 }

@@ -1,16 +1,20 @@
-// No mirror in core: the fused stage may run in several rounds, each of which goes on where the last stopped.
+// No mirror in core: tiles may be sampled in several rounds, each of which goes on where the last stopped.
 
 struct Rounds {
-    // A group stops looking for draws when it has found more than this; at most CHOSEN - GROUP.
+    // A group stops looking for draws when it has found so many; at most LISTED - BLOCK.
     enough: u32,
-    // A round ends when this many have been drawn.
+    // Draws that it looks at at once; divides BLOCK.
+    window: u32,
+    // A round ends when so many have been sampled.
     budget: u32,
     // Set if the driver ended a loop early.
     truncated: u32,
-    // From here on zeroed before the first round. Rounds begun:
+    // Chunks begun; zeroed by the host before the first.
+    chunk: u32,
+    // Rounds begun in this chunk.
     round: u32,
-    // Not 0 if a tile has draws left.
-    unfinished: u32,
-    // Draws that have been looked through, a tile each.
+    // For each kind of grid, not 0 if a tile has draws left.
+    unfinished: array<u32, 2>,
+    // Draws of the chunk that have been looked through: a number a tile for one kind, then for the other.
     progress: array<u32>,
 }

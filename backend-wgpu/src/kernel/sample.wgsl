@@ -1,22 +1,34 @@
 // Mirrors core/src/kernel/sample.rs: micropolygons become samples, the nearest wins.
 //
-// A group owns a tile of the image. What it finds is gathered in workgroup memory in two passes: the nearest
-// depth of each pixel, then the smallest micropolygon that has it.
+// What a group finds in its tile of the image is gathered in workgroup memory: the nearest depth of each
+// pixel, then the smallest micropolygon that has it. Seldom are there more hits than there is room for;
+// then all are looked for a second time.
 
-const TILE: u32 = 16u;
 const TILE_PIXELS: u32 = TILE * TILE;
+// Most draws that are sampled together, and most hits that are kept.
+const LISTED: u32 = 128u;
+const HITS: u32 = 1024u;
+// A key is the rank of a draw among those listed and, in the low bits, one of its micropolygons:
+// column * 32 + row, which is ordered as (u, v) is.
+const CELL_BITS: u32 = 10u;
+const PIXEL_SHIFT: u32 = 24u;
+const NO_KEY: u32 = 0xffffffffu;
 
-// Bits of the nearest 1 / distance of the surface at each pixel of the tile; 0 = nothing.
+// Bits of the nearest 1 / distance at each pixel of the tile; 0 = nothing.
 var<workgroup> cand_depth: array<atomic<u32>, TILE_PIXELS>;
-// The micropolygon that has it: column * 32 + row, which is ordered as (u, v) is.
-var<workgroup> cand_cell: array<atomic<u32>, TILE_PIXELS>;
-// Not 0 if a micropolygon may face the eye.
-var<workgroup> faces_eye: atomic<u32>;
+// The key that has it; NO_KEY if it was there before.
+var<workgroup> cand_key: array<atomic<u32>, TILE_PIXELS>;
+var<workgroup> hit_count: atomic<u32>;
+var<workgroup> hit_depth: array<u32, HITS>;
+var<workgroup> hit_place: array<u32, HITS>;
+// The draws that are being sampled, as numbers within the chunk, and their ranks.
+var<workgroup> listed: array<u32, LISTED>;
+var<workgroup> rank: array<u32, LISTED>;
 
 // The tile of this group: left, right, top, bottom in pixels.
 var<private> tile: vec4<i32>;
-// Does this pass look for depths, rather than for the micropolygons that have them?
-var<private> seek_depth: bool;
+// Are keys looked for, rather than depths?
+var<private> second_time: bool;
 
 fn nearer(new_sample: Sample, old: Sample) -> bool {
     if new_sample.depth != old.depth {
@@ -39,29 +51,113 @@ fn imax(a: i32, b: i32) -> i32 {
     return select(b, a, a > b);
 }
 
-// A candidate for a pixel of the tile, at the micropolygon `cell`.
-fn put(column: i32, row: i32, w: f32, cell: u32) {
-    let place = u32(row - tile.z) * TILE + u32(column - tile.x);
+// A hit of a pixel of the tile.
+fn put(column: i32, row: i32, w: f32, key: u32) {
+    let pixel = u32(row - tile.z) * TILE + u32(column - tile.x);
     let found = bitcast<u32>(w);
-    if seek_depth {
-        atomicMax(&cand_depth[place], found);
-    } else if found == atomicLoad(&cand_depth[place]) {
-        atomicMin(&cand_cell[place], cell);
+    if second_time {
+        resolve_hit(pixel, found, key);
+    } else if found >= atomicMax(&cand_depth[pixel], found) {
+        let place = atomicAdd(&hit_count, 1u);
+        if place < HITS {
+            hit_depth[place] = found;
+            hit_place[place] = (pixel << PIXEL_SHIFT) | key;
+        }
     }
+}
+
+fn resolve_hit(pixel: u32, found: u32, key: u32) {
+    if found == atomicLoad(&cand_depth[pixel]) {
+        atomicMin(&cand_key[pixel], key);
+    }
+}
+
+// One item of a grid: a quad, or a sliver of a seam as a quad whose last two corners are one.
+struct Item {
+    // Numbers of its corners; see `grids.wgsl`.
+    corners: vec4<u32>,
+    cell: u32,
+    is_quad: bool,
+    // Is there such a sliver?
+    exists: bool,
+}
+
+// Number of items of a grid.
+fn items() -> u32 {
+    return frame.rate * (frame.rate + 4u);
+}
+
+fn item_of(flags: u32, task: u32) -> Item {
+    let quads = frame.rate * frame.rate;
+    if task < quads {
+        return quad_of(task / frame.rate, task % frame.rate);
+    }
+    return sliver_of(flags, task - quads);
 }
 
 fn cell_of(row: u32, column: u32) -> u32 {
     return column * 32u + row;
 }
 
-fn vertex_at(row: u32, column: u32) -> Vertex {
-    let at = row * (frame.rate + 1u) + column;
-    return Vertex(grid_x[at], grid_y[at], grid_w[at]);
+fn quad_of(row: u32, column: u32) -> Item {
+    let a = row * (frame.rate + 1u) + column;
+    let d = a + frame.rate + 1u;
+    return Item(vec4<u32>(a, a + 1u, d + 1u, d), cell_of(row, column), true, true);
 }
 
-fn point_at(row: u32, column: u32) -> vec3<f32> {
-    let at = row * (frame.rate + 1u) + column;
-    return vec3<f32>(grid_px[at], grid_py[at], grid_pz[at]);
+// Row and column of step `t` of a border.
+fn border_place(border: u32, t: u32) -> vec2<u32> {
+    let other = select(0u, frame.rate, (border & 1u) != 0u);
+    return select(vec2<u32>(t, other), vec2<u32>(other, t), border < 2u);
+}
+
+// Sliver number `task` of 4 * rate: `rate` a border. Number 0 of a border is that of the chord beyond it;
+// the others are numbered as a heap is: one over the whole border, two over its halves, and so on.
+fn sliver_of(flags: u32, task: u32) -> Item {
+    let border = task / frame.rate;
+    let number = task % frame.rate;
+    let seam = flags >> (SEAM_SHIFT + SEAM_BITS * border);
+    let longest = seam & SEAM_LONGEST;
+    if number == 0u {
+        let end = vertices() + 2u * border;
+        let exists = longest > 0u && (seam & SEAM_CHORD) != 0u;
+        return sliver(end, border_place(border, frame.rate), end + 1u, exists);
+    }
+    let height = firstLeadingBit(number);
+    let span = frame.rate >> height;
+    let start = (number - (1u << height)) * span;
+    let first = vertex_number(border_place(border, start));
+    let last = vertex_number(border_place(border, start + span));
+    return sliver(first, border_place(border, start + span / 2u), last, span <= (1u << longest));
+}
+
+fn vertex_number(place: vec2<u32>) -> u32 {
+    return place.x * (frame.rate + 1u) + place.y;
+}
+
+fn sliver(first: u32, middle: vec2<u32>, last: u32, exists: bool) -> Item {
+    let edge = frame.rate - 1u;
+    let row = select(middle.x, edge, middle.x > edge);
+    let column = select(middle.y, edge, middle.y > edge);
+    let corners = vec4<u32>(first, vertex_number(middle), last, last);
+    return Item(corners, cell_of(row, column), false, exists);
+}
+
+fn vertex_at(base: u32, at: u32) -> Vertex {
+    return Vertex(
+        bitcast<i32>(grids[screen_base(base, 0u) + at]),
+        bitcast<i32>(grids[screen_base(base, 1u) + at]),
+        bitcast<f32>(grids[screen_base(base, 2u) + at]),
+    );
+}
+
+// Position (first = 0) or colour (3) of a vertex.
+fn space_at(base: u32, at: u32, first: u32) -> vec3<f32> {
+    return vec3<f32>(
+        bitcast<f32>(grids[space_base(base, first) + at]),
+        bitcast<f32>(grids[space_base(base, first + 1u) + at]),
+        bitcast<f32>(grids[space_base(base, first + 2u) + at]),
+    );
 }
 
 // The sample of the micropolygon `cell` at this depth.
@@ -79,145 +175,29 @@ fn mean4(a: f32, b: f32, c: f32, d: f32) -> f32 {
 }
 
 // Mean colour of the four vertices of a micropolygon.
-fn colour_of(cell: u32) -> Colour {
-    let a = (cell % 32u) * (frame.rate + 1u) + cell / 32u;
-    let b = a + 1u;
-    let d = a + frame.rate + 1u;
-    let c = d + 1u;
+fn colour_of(base: u32, cell: u32) -> Colour {
+    let corners = quad_of(cell % 32u, cell / 32u).corners;
+    let a = space_at(base, corners.x, 3u);
+    let b = space_at(base, corners.y, 3u);
+    let c = space_at(base, corners.z, 3u);
+    let d = space_at(base, corners.w, 3u);
     return Colour(array<f32, 4>(
-        mean4(grid_red[a], grid_red[b], grid_red[c], grid_red[d]),
-        mean4(grid_green[a], grid_green[b], grid_green[c], grid_green[d]),
-        mean4(grid_blue[a], grid_blue[b], grid_blue[c], grid_blue[d]),
-        1.0,
-    ));
+        mean4(a.x, b.x, c.x, d.x), mean4(a.y, b.y, c.y, d.y), mean4(a.z, b.z, c.z, d.z), 1.0));
 }
 
-// The part of a box of pixels inside the tile.
-fn within_tile(columns: vec2<i32>, rows: vec2<i32>) -> vec4<i32> {
+// The pixels inside the tile whose centres lie between these snapped coordinates.
+fn pixels_of(low_x: i32, high_x: i32, low_y: i32, high_y: i32) -> vec4<i32> {
+    let columns = pixels_between(low_x, high_x);
+    let rows = pixels_between(low_y, high_y);
     return vec4<i32>(
         imax(columns.x, tile.x), imin(columns.y, tile.y), imax(rows.x, tile.z), imin(rows.y, tile.w));
 }
 
-// One quad, as the triangles a b c and a c d.
-fn micropolygon(row: u32, column: u32) {
-    let a = vertex_at(row, column);
-    let b = vertex_at(row, column + 1u);
-    let c = vertex_at(row + 1u, column + 1u);
-    let d = vertex_at(row + 1u, column);
-    if a.w == 0.0 || b.w == 0.0 || c.w == 0.0 || d.w == 0.0 {
-        clipped_quad(row, column);
-        return;
-    }
-    let columns = pixels_between(imin(imin(a.x, b.x), imin(c.x, d.x)), imax(imax(a.x, b.x), imax(c.x, d.x)));
-    let rows = pixels_between(imin(imin(a.y, b.y), imin(c.y, d.y)), imax(imax(a.y, b.y), imax(c.y, d.y)));
-    let pixels = within_tile(columns, rows);
-    let cell = cell_of(row, column);
-    for (var y = pixels.z; y < pixels.w; y++) {
-        for (var x = pixels.x; x < pixels.y; x++) {
-            let w = max(sample_triangle(a, b, c, x, y), sample_triangle(a, c, d, x, y));
-            if w > 0.0 {
-                put(x, y, w, cell);
-            }
-        }
-    }
-}
-
-fn clipped_quad(row: u32, column: u32) {
-    let cell = cell_of(row, column);
-    let a = point_at(row, column);
-    let c = point_at(row + 1u, column + 1u);
-    clipped(a, point_at(row, column + 1u), c, cell);
-    clipped(a, c, point_at(row + 1u, column), cell);
-}
-
-// Clips a triangle and samples what is left of it, as a fan.
-fn clipped(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, cell: u32) {
-    var polygon = clip(a, b, c);
-    for (var k = 2u; k < polygon.count; k++) {
-        triangle(
-            project_clipped(polygon.corners[0]),
-            project_clipped(polygon.corners[k - 1u]),
-            project_clipped(polygon.corners[k]),
-            cell,
-        );
-    }
-}
-
-fn triangle(a: Vertex, b: Vertex, c: Vertex, cell: u32) {
-    let columns = pixels_between(imin(imin(a.x, b.x), c.x), imax(imax(a.x, b.x), c.x));
-    let rows = pixels_between(imin(imin(a.y, b.y), c.y), imax(imax(a.y, b.y), c.y));
-    let pixels = within_tile(columns, rows);
-    for (var y = pixels.z; y < pixels.w; y++) {
-        for (var x = pixels.x; x < pixels.y; x++) {
-            let w = sample_triangle(a, b, c, x, y);
-            if w > 0.0 {
-                put(x, y, w, cell);
-            }
-        }
-    }
-}
-
-// Row and column of step `t` of a border.
-fn border_place(border: u32, t: u32) -> vec2<u32> {
-    switch border {
-        case 0u: {
-            return vec2<u32>(0u, t);
-        }
-        case 1u: {
-            return vec2<u32>(frame.rate, t);
-        }
-        case 2u: {
-            return vec2<u32>(t, 0u);
-        }
-        default: {
-            return vec2<u32>(t, frame.rate);
-        }
-    }
-}
-
-// Sliver number `task` of 4 * rate: `rate` a border. Number 0 of a border is that of the chord beyond it;
-// the others are numbered as a heap is: one over the whole border, two over its halves, and so on.
-fn seam_sliver(task: u32) {
-    let border = task / frame.rate;
-    let number = task % frame.rate;
-    if seam_longest[border] <= 1u {
-        return;
-    }
-    if number == 0u {
-        if seam_chord[border] != 0u {
-            let middle = border_place(border, frame.rate);
-            sliver(seam_ends[2u * border], middle, seam_ends[2u * border + 1u]);
-        }
-        return;
-    }
-    let height = firstLeadingBit(number);
-    let span = frame.rate >> height;
-    if span > seam_longest[border] {
-        return;
-    }
-    let start = (number - (1u << height)) * span;
-    let first = border_place(border, start);
-    let last = border_place(border, start + span);
-    let middle = border_place(border, start + span / 2u);
-    sliver(vertex_at(first.x, first.y), middle, vertex_at(last.x, last.y));
-}
-
-fn sliver(a: Vertex, middle: vec2<u32>, c: Vertex) {
-    let b = vertex_at(middle.x, middle.y);
-    if a.w > 0.0 && b.w > 0.0 && c.w > 0.0 {
-        let last = frame.rate - 1u;
-        let row = select(middle.x, last, middle.x > last);
-        let column = select(middle.y, last, middle.y > last);
-        triangle(a, b, c, cell_of(row, column));
-    }
-}
-
-// May the micropolygon be seen from the front? See `faces_away` in core.
-fn may_face_eye(row: u32, column: u32) -> bool {
-    let a = vertex_at(row, column);
-    let b = vertex_at(row, column + 1u);
-    let c = vertex_at(row + 1u, column + 1u);
-    let d = vertex_at(row + 1u, column);
-    let whole = a.w > 0.0 && b.w > 0.0 && c.w > 0.0 && d.w > 0.0;
-    return !(whole && signed_area(a, b, c) >= 0 && signed_area(a, c, d) >= 0);
+fn pixels_of_quad(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> vec4<i32> {
+    return pixels_of(
+        imin(imin(a.x, b.x), imin(c.x, d.x)),
+        imax(imax(a.x, b.x), imax(c.x, d.x)),
+        imin(imin(a.y, b.y), imin(c.y, d.y)),
+        imax(imax(a.y, b.y), imax(c.y, d.y)),
+    );
 }
