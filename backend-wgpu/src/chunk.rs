@@ -13,23 +13,15 @@ const TILE: u32 = 16;
 /// Words before the first grid; as `GRIDS` there.
 const GRIDS: u64 = 4 + 2 * DRAWS / 64;
 /// Places in `rounds.wgsl`, in bytes: was a loop cut, chunks begun, is anything left, progress.
-pub(crate) const TRUNCATED: u64 = 12;
-pub(crate) const BEGUN: u64 = 16;
-pub(crate) const UNFINISHED: u64 = 24;
-const PROGRESS: u64 = 32;
+pub(crate) const TRUNCATED: u64 = 8;
+pub(crate) const BEGUN: u64 = 12;
+pub(crate) const UNFINISHED: u64 = 20;
+const PROGRESS: u64 = 28;
 
-/// How much a tile does in one dispatch: the first three words of `rounds.wgsl`.
-#[derive(Clone, Copy, Debug)]
-struct Share {
-    enough: u32,
-    window: u32,
-    budget: u32,
-}
-
-/// A GPU does all at once.
-const ALL_AT_ONCE: Share = Share { enough: 64, window: 64, budget: u32::MAX };
-/// llvmpipe goes in rounds, far from its limit of 65535 loop iterations a dispatch (see `tiles.wgsl`).
-const IN_ROUNDS: Share = Share { enough: 16, window: 16, budget: 64 };
+/// Draws, near and general, that a tile samples in one dispatch: the first words of `rounds.wgsl`. A GPU does
+/// all at once; llvmpipe goes in rounds, far from its limit of 65535 loop iterations (see `tiles.wgsl`).
+const ALL_AT_ONCE: [u32; 2] = [u32::MAX; 2];
+const IN_ROUNDS: [u32; 2] = [128, 1];
 
 /// Buffers of the fused stage.
 #[derive(Debug)]
@@ -64,13 +56,9 @@ impl Chunk {
         rate: u32,
     ) -> Result<(), WgpuError> {
         let tiles = u64::from(width.div_ceil(TILE)) * u64::from(height.div_ceil(TILE));
-        let share = if self.in_rounds { IN_ROUNDS } else { ALL_AT_ONCE };
+        let budget = if self.in_rounds { IN_ROUNDS } else { ALL_AT_ONCE };
         if grow(device, &mut self.rounds, PROGRESS + 8 * tiles, &self.allocated)? {
-            queue.write_buffer(
-                &self.rounds,
-                0,
-                bytemuck::cast_slice(&[share.enough, share.window, share.budget]),
-            );
+            queue.write_buffer(&self.rounds, 0, bytemuck::cast_slice(&budget));
         }
         grow(device, &mut self.grids, grids_bytes(rate), &self.allocated)?;
         Ok(())

@@ -1,6 +1,10 @@
 // Mirrors `micropolygon`, `clipped` and `triangle` of core/src/kernel/sample.rs: any grid whatever.
 
 const KIND: u32 = KIND_GENERAL;
+// Draws that are looked at at once, and so many are enough to be sampled together: few, since each may be long
+// work. See `tiles.wgsl`.
+const WINDOW: u32 = 16u;
+const ENOUGH: u32 = 1u;
 
 fn sample_item(base: u32, item: Item, key: u32) {
     let a = vertex_at(base, item.corners.x);

@@ -31,6 +31,11 @@ const GRIDS: u32 = BOXES + 2u * BLOCKS;
 // Ends of the chords beyond the four borders.
 const ENDS: u32 = 8u;
 
+// The dice rate is a power of two: this is its exponent.
+fn rate_bits() -> u32 {
+    return firstTrailingBit(frame.rate);
+}
+
 fn vertices() -> u32 {
     return (frame.rate + 1u) * (frame.rate + 1u);
 }

@@ -1,6 +1,9 @@
 // Mirrors `sample_quad` of core/src/kernel/sample.rs for grids that are small and whole.
 
 const KIND: u32 = KIND_NEAR;
+// Draws that are looked at at once, and so many are enough to be sampled together; see `tiles.wgsl`.
+const WINDOW: u32 = 64u;
+const ENOUGH: u32 = 32u;
 
 fn sample_item(base: u32, item: Item, key: u32) {
     let a = vertex_at(base, item.corners.x);

@@ -1,12 +1,8 @@
 // No mirror in core: tiles may be sampled in several rounds, each of which goes on where the last stopped.
 
 struct Rounds {
-    // A group stops looking for draws when it has found so many; at most LISTED - BLOCK.
-    enough: u32,
-    // Draws that it looks at at once; divides BLOCK.
-    window: u32,
-    // A round ends when so many have been sampled.
-    budget: u32,
+    // A round ends when so many draws of a kind have been sampled in a tile.
+    budget: array<u32, 2>,
     // Set if the driver ended a loop early.
     truncated: u32,
     // Chunks begun; zeroed by the host before the first.

@@ -90,7 +90,7 @@ fn items() -> u32 {
 fn item_of(flags: u32, task: u32) -> Item {
     let quads = frame.rate * frame.rate;
     if task < quads {
-        return quad_of(task / frame.rate, task % frame.rate);
+        return quad_of(task >> rate_bits(), task & (frame.rate - 1u));
     }
     return sliver_of(flags, task - quads);
 }
@@ -114,8 +114,8 @@ fn border_place(border: u32, t: u32) -> vec2<u32> {
 // Sliver number `task` of 4 * rate: `rate` a border. Number 0 of a border is that of the chord beyond it;
 // the others are numbered as a heap is: one over the whole border, two over its halves, and so on.
 fn sliver_of(flags: u32, task: u32) -> Item {
-    let border = task / frame.rate;
-    let number = task % frame.rate;
+    let border = task >> rate_bits();
+    let number = task & (frame.rate - 1u);
     let seam = flags >> (SEAM_SHIFT + SEAM_BITS * border);
     let longest = seam & SEAM_LONGEST;
     if number == 0u {
@@ -165,8 +165,8 @@ fn sample_of(surface: Surface, cell: u32, depth_bits: u32) -> Sample {
     return Sample(
         depth_bits,
         surface.patch_id,
-        surface.u + (cell / 32u) * (u_size(surface) / frame.rate),
-        surface.v + (cell % 32u) * (v_size(surface) / frame.rate),
+        surface.u + (cell / 32u) * (u_size(surface) >> rate_bits()),
+        surface.v + (cell % 32u) * (v_size(surface) >> rate_bits()),
     );
 }
 

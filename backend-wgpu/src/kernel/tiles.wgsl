@@ -15,8 +15,8 @@ var<workgroup> listed_shared: u32;
 var<workgroup> hits_shared: u32;
 // Slot in `listed` of the draw of each rank.
 var<workgroup> order: array<u32, LISTED>;
-// First draw to be looked at, and what `rounds` has under `enough`, `window` and `budget`.
-var<workgroup> round_shared: vec4<u32>;
+// First draw to be looked at, and the round's budget.
+var<workgroup> round_shared: vec2<u32>;
 
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -28,11 +28,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let place = ((KIND - 1u) * tiles(frame.height) + group.y) * tiles(frame.width) + group.x;
     if lane == 0u {
         let first = select(0u, rounds.progress[place], rounds.round > 1u);
-        round_shared = vec4<u32>(first, rounds.enough, rounds.window, rounds.budget);
+        round_shared = vec2<u32>(first, rounds.budget[KIND - 1u]);
     }
     let round = workgroupUniformLoad(&round_shared);
     let count = grids[HEAD_COUNT];
-    var found = seek(round.x, count, round, lane);
+    var found = seek(round.x, count, lane);
     if found.listed > 0u {
         recall(lane);
     }
@@ -40,10 +40,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     while found.listed > 0u {
         sample_listed(found.listed, lane);
         done += found.listed;
-        if done >= round.w {
+        if done >= round.y {
             break;
         }
-        found = seek(found.next, count, round, lane);
+        found = seek(found.next, count, lane);
     }
     if lane == 0u {
         rounds.progress[place] = found.next;
@@ -73,19 +73,19 @@ struct Found {
 }
 
 // Lists draws from number `first` on until there are enough.
-fn seek(first: u32, count: u32, round: vec4<u32>, lane: u32) -> Found {
+fn seek(first: u32, count: u32, lane: u32) -> Found {
     workgroupBarrier();
     if lane == 0u {
         atomicStore(&listed_count, 0u);
     }
     workgroupBarrier();
     var found = Found(0u, first);
-    while found.next < count && found.listed < round.y {
+    while found.next < count && found.listed < ENOUGH {
         let box = BOXES + found.next / BLOCK * 2u;
         if touches(grids[box], grids[box + 1u]) {
             let index = found.next + lane;
-            found.listed = list(index, lane < round.z && index < count, lane);
-            found.next += round.z;
+            found.listed = list(index, lane < WINDOW && index < count, lane);
+            found.next += WINDOW;
         } else {
             found.next = (found.next / BLOCK + 1u) * BLOCK;
         }
@@ -174,11 +174,17 @@ fn rank_of(slot: u32, count: u32) -> u32 {
 }
 
 fn sample_all(count: u32, lane: u32) {
-    for (var task = lane; task < count * items(); task += GROUP) {
-        let slot = task / items();
+    var slot = lane / items();
+    var task = lane % items();
+    let slots = GROUP / items();
+    let tasks = GROUP % items();
+    while slot < count {
         let base = grid_base(listed[slot]);
-        let item = item_of(grids[base], task % items());
+        let item = item_of(grids[base], task);
         sample_item(base, item, (rank[slot] << CELL_BITS) | item.cell);
+        let next = task + tasks;
+        slot += slots + select(0u, 1u, next >= items());
+        task = next - select(0u, items(), next >= items());
     }
 }
 
