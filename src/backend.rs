@@ -64,19 +64,21 @@ impl Backend {
         }
     }
 
-    /// The device that will render.
+    /// The devices that may render, the first that opens is the one; and what a user should be told.
     ///
     /// # Errors
-    /// [`Error::Backend`] if there is none.
-    pub fn choose(self, wanted: Option<&str>) -> Result<DeviceEntry> {
+    /// [`Error::Backend`] if there is none, [`Error::Scene`] if `wanted` names none.
+    pub fn candidates(self, wanted: Option<&str>) -> Result<(Vec<DeviceEntry>, Vec<String>)> {
         if self != Self::Auto {
-            return find(self, wanted);
+            return Ok((vec![find(self, wanted)?], Vec::new()));
         }
-        let gpus =
-            [Self::Wgpu, Self::Ocl].into_iter().filter_map(|backend| devices_of(backend).ok()).flatten();
-        match gpus.into_iter().find(|entry| entry.is_gpu) {
-            Some(entry) => Ok(entry),
-            None => find(Self::Cpu, wanted),
+        match wanted {
+            Some(number) if number.parse::<usize>().is_ok() => Err(Error::scene(
+                format!("device number {number} of which backend?"),
+                format!("name it, for example --backend wgpu --device {number}; see `micropoly devices`"),
+            )),
+            Some(name) => Ok((vec![named(name)?], Vec::new())),
+            None => gpus_then_cpu(),
         }
     }
 
@@ -91,13 +93,66 @@ impl Backend {
     }
 }
 
+/// The device of any backend with this in its name.
+fn named(name: &str) -> Result<DeviceEntry> {
+    let all: Vec<DeviceEntry> =
+        Backend::ALL.into_iter().flat_map(|b| devices_of(b).unwrap_or_default()).collect();
+    let meant = all.iter().find(|entry| entry.is_called(name)).cloned();
+    meant.ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|entry| entry.name.as_str()).collect();
+        Error::scene(format!("no device is called `{name}`"), format!("choose one of: {}", names.join(", ")))
+    })
+}
+
+/// All GPUs, then the CPU.
+fn gpus_then_cpu() -> Result<(Vec<DeviceEntry>, Vec<String>)> {
+    let gpus = [Backend::Wgpu, Backend::Ocl].into_iter().flat_map(|b| devices_of(b).unwrap_or_default());
+    let mut all: Vec<DeviceEntry> = gpus.filter(|entry| entry.is_gpu).collect();
+    let mut notes = Vec::new();
+    if all.is_empty() && (Backend::Wgpu.is_built() || Backend::Ocl.is_built()) {
+        notes.push("no GPU was found, so the CPU renders".to_owned());
+    }
+    match devices_of(Backend::Cpu) {
+        Ok(cpu) => all.extend(cpu),
+        Err(missing) if all.is_empty() => return Err(Backend::Cpu.unavailable(missing.why)),
+        Err(_) => {}
+    }
+    Ok((all, notes))
+}
+
 /// Renders a scene; `progress` is told the counts so far, now and then.
 ///
 /// # Errors
-/// [`Error::Backend`], [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
-pub fn render<F: FnMut(&Counts)>(scene: &Scene, options: &RenderOptions, progress: F) -> Result<Rendering> {
-    let entry = options.backend.choose(options.device.as_deref())?;
-    with_device(&entry, options.threads, Render { scene, options, progress })?
+/// [`Error::Backend`], [`Error::Refused`], [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
+pub fn render<F: FnMut(&Counts)>(
+    scene: &Scene,
+    options: &RenderOptions,
+    mut progress: F,
+) -> Result<Rendering> {
+    let (candidates, mut notes) = options.backend.candidates(options.device.as_deref())?;
+    let (rendering, refusals) = first_that_opens(&candidates, |entry| {
+        let job = Render { scene, options, progress: &mut progress };
+        with_device(entry, options.threads, job).map(|rendering| (entry.backend, rendering))
+    })?;
+    notes.extend(refusals);
+    let (backend, rendering) = rendering;
+    Ok(Rendering { backend, notes, ..rendering? })
+}
+
+/// What `attempt` makes of the first entry that it does not refuse, and why it refused those before.
+fn first_that_opens<T>(
+    entries: &[DeviceEntry],
+    mut attempt: impl FnMut(&DeviceEntry) -> Result<T>,
+) -> Result<(T, Vec<String>)> {
+    let mut refusals = Vec::new();
+    for (place, entry) in entries.iter().enumerate() {
+        match attempt(entry) {
+            Ok(done) => return Ok((done, refusals)),
+            Err(refusal) if place + 1 == entries.len() => return Err(refusal),
+            Err(refusal) => refusals.push(format!("{refusal}; so the next device is tried")),
+        }
+    }
+    Err(Backend::Auto.unavailable("no device was found".to_owned()))
 }
 
 /// Rendering a scene, as a job for any device.
@@ -112,5 +167,39 @@ impl<F: FnMut(&Counts)> Job for Render<'_, F> {
 
     fn run<D: Device>(self, device: D, name: String) -> Result<Rendering> {
         render_on(device, name, self.scene, self.options, self.progress)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(backend: Backend, index: usize) -> DeviceEntry {
+        DeviceEntry { backend, index, name: format!("device {index}"), is_gpu: true, details: Vec::new() }
+    }
+
+    #[test]
+    fn a_refused_device_makes_room_for_the_next_and_is_told_of() {
+        let entries = [entry(Backend::Wgpu, 0), entry(Backend::Ocl, 1), entry(Backend::Cpu, 2)];
+        let refuse = |entry: &DeviceEntry| match entry.backend {
+            Backend::Wgpu => Err(entry.refused("it rounds otherwise")),
+            _ => Ok(entry.index),
+        };
+        let (opened, notes) = first_that_opens(&entries, refuse).expect("the second opens");
+        assert_eq!(opened, 1);
+        assert!(notes.len() == 1 && notes[0].contains("it rounds otherwise"), "{notes:?}");
+    }
+
+    #[test]
+    fn the_last_refusal_is_the_error() {
+        let entries = [entry(Backend::Wgpu, 0)];
+        let outcome = first_that_opens(&entries, |entry| Err::<(), _>(entry.refused("broken")));
+        assert!(outcome.expect_err("nothing opens").to_string().contains("broken"));
+        assert!(first_that_opens(&[], |_| Ok(())).is_err());
+    }
+
+    #[test]
+    fn a_number_alone_means_no_device() {
+        assert!(Backend::Auto.candidates(Some("0")).is_err());
     }
 }

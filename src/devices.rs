@@ -20,6 +20,25 @@ pub struct DeviceEntry {
     pub details: Vec<(&'static str, String)>,
 }
 
+impl DeviceEntry {
+    /// Does its name contain this, in upper or lower case?
+    #[must_use]
+    pub fn is_called(&self, part: &str) -> bool {
+        self.name.to_lowercase().contains(&part.to_lowercase())
+    }
+
+    /// It could not be opened.
+    pub(crate) fn refused(&self, why: impl ToString) -> Error {
+        let why = why.to_string();
+        let help = if why.contains("help: ") { "" } else { "\n  help: use another device, or --backend cpu" };
+        Error::Refused {
+            backend: self.backend.name(),
+            device: self.name.clone(),
+            why: format!("{why}{help}"),
+        }
+    }
+}
+
 /// A backend without a device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Missing {
@@ -126,10 +145,9 @@ pub fn find(backend: Backend, wanted: Option<&str>) -> Result<DeviceEntry> {
     let all = devices_of(backend).map_err(|missing| backend.unavailable(missing.why))?;
     let Some(wanted) = wanted else { return Ok(all.into_iter().next().expect("not empty")) };
     let number = wanted.parse::<usize>().ok();
-    let lower = wanted.to_lowercase();
     let meant = |entry: &&DeviceEntry| match number {
         Some(number) => entry.index == number,
-        None => entry.name.to_lowercase().contains(&lower),
+        None => entry.is_called(wanted),
     };
     all.iter().find(meant).cloned().ok_or_else(|| {
         let names: Vec<String> = all.iter().map(|entry| format!("{} {}", entry.index, entry.name)).collect();
@@ -143,27 +161,27 @@ pub fn find(backend: Backend, wanted: Option<&str>) -> Result<DeviceEntry> {
 /// Opens a device and does something with it; `threads` matter to the CPU only.
 ///
 /// # Errors
-/// [`Error::Device`] if it cannot be opened or is refused.
+/// [`Error::Refused`] if it cannot be opened.
 pub fn with_device<J: Job>(entry: &DeviceEntry, threads: usize, job: J) -> Result<J::Output> {
     let _ = threads;
     match entry.backend {
         #[cfg(feature = "cpu")]
         Backend::Cpu => {
-            let device = micropoly_backend_cpu::CpuDevice::new(threads)
-                .map_err(|error| Error::Device(error.to_string()))?;
+            let device =
+                micropoly_backend_cpu::CpuDevice::new(threads).map_err(|error| entry.refused(error))?;
             Ok(job.run(device, entry.name.clone()))
         }
         #[cfg(feature = "wgpu")]
         Backend::Wgpu => {
             let device = micropoly_backend_wgpu::WgpuDevice::open(entry.index, None)
-                .map_err(|error| Error::Device(error.to_string()))?;
+                .map_err(|error| entry.refused(error))?;
             Ok(job.run(device, entry.name.clone()))
         }
         #[cfg(feature = "ocl")]
         Backend::Ocl => {
             let options = micropoly_backend_ocl::OpenOptions::default();
             let device = micropoly_backend_ocl::OclDevice::open(entry.index, &options)
-                .map_err(|error| Error::Device(error.to_string()))?;
+                .map_err(|error| entry.refused(error))?;
             Ok(job.run(device, entry.name.clone()))
         }
         backend => {

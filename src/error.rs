@@ -56,6 +56,16 @@ pub enum Error {
         /// What to do about it.
         remedy: &'static str,
     },
+    /// A device is there but cannot be used.
+    #[error("{backend} device {device} cannot be used: {why}")]
+    Refused {
+        /// Its backend.
+        backend: &'static str,
+        /// Its name.
+        device: String,
+        /// Why not, and what to do about it.
+        why: String,
+    },
     /// The device failed.
     #[error("the device failed: {0}\n  help: try a smaller --res, --batch or --memory")]
     Device(String),

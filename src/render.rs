@@ -58,8 +58,12 @@ pub struct Rendering {
     pub sizes: Sizes,
     /// Bytes that the device held.
     pub bytes_allocated: u64,
+    /// Which backend it was.
+    pub backend: Backend,
     /// Name of the device.
     pub device: String,
+    /// What a user should be told about the choice of the device.
+    pub notes: Vec<String>,
     /// Wall time by stage.
     pub seconds: Seconds,
 }
@@ -91,7 +95,16 @@ pub fn render_on<D: Device>(
     let image = resolve(&mut device, &buffers.colours, scene, &options.frame).map_err(failed)?;
     let seconds = Seconds { setup, resolve: resolving.elapsed().as_secs_f64(), ..device.seconds };
     let sizes = *plan.sizes();
-    Ok(Rendering { image, counts, sizes, bytes_allocated, device: device_name, seconds })
+    Ok(Rendering {
+        image,
+        counts,
+        sizes,
+        bytes_allocated,
+        device: device_name,
+        seconds,
+        backend: options.backend,
+        notes: Vec::new(),
+    })
 }
 
 /// The batch that was asked for, or the one that fits the budget.

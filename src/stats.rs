@@ -87,20 +87,14 @@ pub struct Options {
 impl Stats {
     /// Statistics of a rendering of `scene`; `seconds` may have more in it than the rendering knows.
     #[must_use]
-    pub fn new(
-        scene: &str,
-        backend: &str,
-        options: &RenderOptions,
-        rendering: &Rendering,
-        seconds: Seconds,
-    ) -> Self {
+    pub fn new(scene: &str, options: &RenderOptions, rendering: &Rendering, seconds: Seconds) -> Self {
         let Rendering { image, counts, sizes, bytes_allocated, device, .. } = rendering;
         Self {
             schema: SCHEMA,
             version: VERSION,
             program: env!("CARGO_PKG_VERSION"),
             scene: scene.to_owned(),
-            backend: backend.to_owned(),
+            backend: rendering.backend.name().to_owned(),
             device: device.clone(),
             options: effective(options, sizes),
             patches: u64::from(sizes.patches),

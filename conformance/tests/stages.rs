@@ -1,9 +1,9 @@
-//! Every stage alone on every device of the backends built in, bit by bit against the CPU with one thread; and the comparison itself:
-//! its inputs matter, and it finds a single wrong bit.
+//! Every stage alone on every device of the backends built in, bit by bit against the CPU with one thread; and
+//! the comparison itself: its inputs matter, and it finds a single wrong bit.
 
 mod common;
 
-use common::devices;
+use common::{devices, report};
 use micropoly::devices::{Job, with_device};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_conformance::corpus::{ROUNDS, input};
@@ -30,8 +30,9 @@ impl Job for AllStages {
 #[test]
 fn every_stage_gives_the_same_bits_on_every_device() {
     for (entry, _) in devices() {
-        for report in with_device(&entry, 3, AllStages).expect("opens") {
-            assert!(report.agrees(), "{}: {report:?}", entry.name);
+        for stage in with_device(&entry, 3, AllStages).expect("opens") {
+            assert!(stage.agrees(), "{}: {stage:?}", entry.name);
+            report(&entry, &format!("stage {}, {} inputs", stage.stage, stage.inputs), "same bits");
         }
     }
 }

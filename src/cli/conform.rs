@@ -53,7 +53,7 @@ fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
         }
         match devices_of(backend) {
             Ok(entries) => all.extend(entries),
-            Err(_) if only.is_some() => return Err(backend.choose(None).expect_err("there is none")),
+            Err(_) if only.is_some() => return Err(backend.candidates(None).expect_err("there is none")),
             Err(missing) => println!("{}: {}", backend.name(), missing.why),
         }
     }
@@ -97,8 +97,8 @@ impl Job for Conform<'_> {
     type Output = Result<DeviceReport>;
 
     fn run<D: Device>(self, device: D, name: String) -> Result<DeviceReport> {
-        let reference = Backend::Cpu.choose(None)?;
-        with_device(&reference, 1, AgainstReference { conform: self, device, name })?
+        let (reference, _) = Backend::Cpu.candidates(None)?;
+        with_device(&reference[0], 1, AgainstReference { conform: self, device, name })?
     }
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn main() -> ExitCode {
         Err(error) => {
             eprintln!("error: {error}");
             match error {
-                Error::Backend { .. } => ExitCode::from(UNAVAILABLE),
+                Error::Backend { .. } | Error::Refused { .. } => ExitCode::from(UNAVAILABLE),
                 _ => ExitCode::FAILURE,
             }
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use micropoly::stats::Stats;
-use micropoly::{Backend, Error, RenderOptions, Result, Scene, Seconds};
+use micropoly::{Error, Result, Scene, Seconds};
 
 use super::args::RenderArguments;
 use super::progress::Progress;
@@ -14,11 +14,6 @@ use super::summary;
 pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let start = Instant::now();
     let options = arguments.options();
-    let entry = options.backend.choose(options.device.as_deref())?;
-    if options.backend == Backend::Auto && entry.backend == Backend::Cpu && Backend::Wgpu.is_built() {
-        eprintln!("note: no GPU was found, so the CPU renders");
-    }
-    let options = RenderOptions { backend: entry.backend, device: Some(entry.index.to_string()), ..options };
     check_folder(&arguments.output)?;
     let scene = Scene::load(&arguments.scene)?;
     let load = start.elapsed().as_secs_f64();
@@ -26,13 +21,16 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let mut progress = Progress::new(arguments.progress, scene.patch_count() as u64);
     let rendering = micropoly::render(&scene, &options, |counts| progress.update(counts))?;
     progress.finish();
+    for note in &rendering.notes {
+        eprintln!("note: {note}");
+    }
 
     let encoding = Instant::now();
     rendering.image.save_png(&arguments.output)?;
     let encode = encoding.elapsed().as_secs_f64();
     let total = start.elapsed().as_secs_f64();
     let seconds = Seconds { load, encode, total, ..rendering.seconds };
-    let stats = Stats::new(&scene.name, entry.backend.name(), &options, &rendering, seconds);
+    let stats = Stats::new(&scene.name, &options, &rendering, seconds);
     if let Some(path) = &arguments.stats {
         write_json(path, &stats)?;
     }

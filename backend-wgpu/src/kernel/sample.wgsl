@@ -1,34 +1,40 @@
 // Mirrors core/src/kernel/sample.rs: micropolygons become samples, the nearest wins.
 //
 // What a group finds in its tile of the image is gathered in workgroup memory: the nearest depth of each
-// pixel, then the smallest micropolygon that has it. Seldom are there more hits than there is room for;
-// then all are looked for a second time.
+// pixel, then, of the micropolygons that have it, the smallest patch and u, then the smallest v: three passes,
+// of which the last two look at the hits of the first only. Seldom are there more hits than there is room
+// for; then they look for them anew.
 
 const TILE_PIXELS: u32 = TILE * TILE;
 // Most draws that are sampled together, and most hits that are kept.
 const LISTED: u32 = 128u;
 const HITS: u32 = 1024u;
-// A key is the rank of a draw among those listed and, in the low bits, one of its micropolygons:
-// column * 32 + row, which is ordered as (u, v) is.
+// A key is the slot of a draw among those listed and, in the low bits, one of its micropolygons:
+// column * 32 + row.
 const CELL_BITS: u32 = 10u;
 const PIXEL_SHIFT: u32 = 24u;
-const NO_KEY: u32 = 0xffffffffu;
+const RANK_BITS: u32 = 7u;
+const NOBODY: u32 = 0xffffffffu;
 
 // Bits of the nearest 1 / distance at each pixel of the tile; 0 = nothing.
 var<workgroup> cand_depth: array<atomic<u32>, TILE_PIXELS>;
-// The key that has it; NO_KEY if it was there before.
-var<workgroup> cand_key: array<atomic<u32>, TILE_PIXELS>;
+// Patch, as its rank, and u of the micropolygon that has it; NOBODY if it was there before.
+var<workgroup> cand_patch_u: array<atomic<u32>, TILE_PIXELS>;
+// Its v, and the rank of its draw.
+var<workgroup> cand_v_draw: array<atomic<u32>, TILE_PIXELS>;
 var<workgroup> hit_count: atomic<u32>;
 var<workgroup> hit_depth: array<u32, HITS>;
 var<workgroup> hit_place: array<u32, HITS>;
-// The draws that are being sampled, as numbers within the chunk, and their ranks.
+// The draws that are being sampled, as numbers within the chunk, and how many of them come before each in the
+// draw buffer, and have a smaller patch.
 var<workgroup> listed: array<u32, LISTED>;
 var<workgroup> rank: array<u32, LISTED>;
+var<workgroup> patch_rank: array<u32, LISTED>;
 
 // The tile of this group: left, right, top, bottom in pixels.
 var<private> tile: vec4<i32>;
-// Are keys looked for, rather than depths?
-var<private> second_time: bool;
+// Which pass is it: 0, 1 or 2?
+var<private> turn: u32;
 
 fn nearer(new_sample: Sample, old: Sample) -> bool {
     if new_sample.depth != old.depth {
@@ -55,8 +61,8 @@ fn imax(a: i32, b: i32) -> i32 {
 fn put(column: i32, row: i32, w: f32, key: u32) {
     let pixel = u32(row - tile.z) * TILE + u32(column - tile.x);
     let found = bitcast<u32>(w);
-    if second_time {
-        resolve_hit(pixel, found, key);
+    if turn > 0u {
+        compare(pixel, found, key);
     } else if found >= atomicMax(&cand_depth[pixel], found) {
         let place = atomicAdd(&hit_count, 1u);
         if place < HITS {
@@ -66,10 +72,25 @@ fn put(column: i32, row: i32, w: f32, key: u32) {
     }
 }
 
-fn resolve_hit(pixel: u32, found: u32, key: u32) {
-    if found == atomicLoad(&cand_depth[pixel]) {
-        atomicMin(&cand_key[pixel], key);
+// Who has the nearest depth? First by patch and u, then by v.
+fn compare(pixel: u32, found: u32, key: u32) {
+    if found != atomicLoad(&cand_depth[pixel]) {
+        return;
     }
+    let slot = key >> CELL_BITS;
+    let cell = key & ((1u << CELL_BITS) - 1u);
+    let it = sample_of(surface_of(draw_at(listed[slot])), cell, found);
+    let patch_u = (patch_rank[slot] << PARAM_BITS) | it.u;
+    if turn == 1u {
+        atomicMin(&cand_patch_u[pixel], patch_u);
+    } else if patch_u == atomicLoad(&cand_patch_u[pixel]) {
+        atomicMin(&cand_v_draw[pixel], (it.v << RANK_BITS) | rank[slot]);
+    }
+}
+
+// Draw number `index` of the chunk.
+fn draw_at(index: u32) -> Draw {
+    return draws[grids[HEAD_START] + index];
 }
 
 // One item of a grid: a quad, or a sliver of a seam as a quad whose last two corners are one.
@@ -175,8 +196,8 @@ fn mean4(a: f32, b: f32, c: f32, d: f32) -> f32 {
 }
 
 // Mean colour of the four vertices of a micropolygon.
-fn colour_of(base: u32, cell: u32) -> Colour {
-    let corners = quad_of(cell % 32u, cell / 32u).corners;
+fn colour_of(base: u32, row: u32, column: u32) -> Colour {
+    let corners = quad_of(row, column).corners;
     let a = space_at(base, corners.x, 3u);
     let b = space_at(base, corners.y, 3u);
     let c = space_at(base, corners.z, 3u);

@@ -124,53 +124,54 @@ fn recall(lane: u32) {
             depth_bits = samples[row * frame.width + column].depth;
         }
         atomicStore(&cand_depth[pixel], depth_bits);
-        atomicStore(&cand_key[pixel], NO_KEY);
+        atomicStore(&cand_patch_u[pixel], NOBODY);
+        atomicStore(&cand_v_draw[pixel], NOBODY);
     }
 }
 
-// Samples the listed draws: depths, then keys, then what has become visible.
+// Samples the listed draws: depths, who has them, then what has become visible.
 fn sample_listed(count: u32, lane: u32) {
     for (var slot = lane; slot < count; slot += GROUP) {
-        let ranked = rank_of(slot, count);
-        rank[slot] = ranked;
-        order[ranked] = slot;
+        give_ranks(slot, count);
+        order[rank[slot]] = slot;
     }
     if lane == 0u {
         atomicStore(&hit_count, 0u);
     }
     workgroupBarrier();
-    second_time = false;
+    turn = 0u;
     var hits = 0u;
-    for (var times = 0u; times < 1u + select(0u, 1u, hits > HITS); times++) {
+    for (var passes = 1u; turn < passes; turn++) {
         sample_all(count, lane);
         workgroupBarrier();
         if lane == 0u {
             hits_shared = atomicLoad(&hit_count);
         }
         hits = workgroupUniformLoad(&hits_shared);
-        second_time = true;
+        passes = select(1u, 3u, hits > HITS);
     }
-    for (var hit = lane; hit < select(hits, 0u, hits > HITS); hit += GROUP) {
-        let at = hit_place[hit];
-        resolve_hit(at >> PIXEL_SHIFT, hit_depth[hit], at & ((1u << PIXEL_SHIFT) - 1u));
+    for (turn = 1u; turn < 3u; turn++) {
+        for (var hit = lane; hit < select(hits, 0u, hits > HITS); hit += GROUP) {
+            let at = hit_place[hit];
+            compare(at >> PIXEL_SHIFT, hit_depth[hit], at & ((1u << PIXEL_SHIFT) - 1u));
+        }
+        workgroupBarrier();
     }
-    workgroupBarrier();
     for (var pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
         resolve(pixel);
     }
 }
 
-// How many listed draws come before this one in the order of (patch, u, v).
-fn rank_of(slot: u32, count: u32) -> u32 {
-    let mine = draws[grids[HEAD_START] + listed[slot]];
+fn give_ranks(slot: u32, count: u32) {
+    let patch_id = draw_at(listed[slot]).patch_id;
     var before = 0u;
+    var smaller = 0u;
     for (var other = 0u; other < count; other++) {
-        let it = draws[grids[HEAD_START] + listed[other]];
-        let is_before = it.patch_id < mine.patch_id || (it.patch_id == mine.patch_id
-            && (it.u < mine.u || (it.u == mine.u && it.v < mine.v)));
-        before += select(0u, 1u, is_before);
+        before += select(0u, 1u, listed[other] < listed[slot]);
+        smaller += select(0u, 1u, draw_at(listed[other]).patch_id < patch_id);
     }
-    return before;
+    rank[slot] = before;
+    patch_rank[slot] = smaller;
 }
 
 fn sample_all(count: u32, lane: u32) {
@@ -181,7 +182,7 @@ fn sample_all(count: u32, lane: u32) {
     while slot < count {
         let base = grid_base(listed[slot]);
         let item = item_of(grids[base], task);
-        sample_item(base, item, (rank[slot] << CELL_BITS) | item.cell);
+        sample_item(base, item, (slot << CELL_BITS) | item.cell);
         let next = task + tasks;
         slot += slots + select(0u, 1u, next >= items());
         task = next - select(0u, items(), next >= items());
@@ -190,18 +191,23 @@ fn sample_all(count: u32, lane: u32) {
 
 // Shows the candidate of a pixel if it is nearer than what is stored; the pixel belongs to this invocation.
 fn resolve(pixel: u32) {
-    let key = atomicLoad(&cand_key[pixel]);
-    if key == NO_KEY {
+    let patch_u = atomicLoad(&cand_patch_u[pixel]);
+    if patch_u == NOBODY {
         return;
     }
-    let index = listed[order[key >> CELL_BITS]];
-    let cell = key & ((1u << CELL_BITS) - 1u);
+    let v_draw = atomicLoad(&cand_v_draw[pixel]);
+    let index = listed[order[v_draw & ((1u << RANK_BITS) - 1u)]];
+    let surface = surface_of(draw_at(index));
+    let u = patch_u & (PARAM_ONE - 1u);
+    let v = v_draw >> RANK_BITS;
+    let found = Sample(atomicLoad(&cand_depth[pixel]), surface.patch_id, u, v);
     let place = (u32(tile.z) + pixel / TILE) * frame.width + u32(tile.x) + pixel % TILE;
-    let surface = surface_of(draws[grids[HEAD_START] + index]);
-    let found = sample_of(surface, cell, atomicLoad(&cand_depth[pixel]));
     if nearer(found, samples[place]) {
         samples[place] = found;
-        colours[place] = colour_of(grid_base(index), cell);
+        let column = (u - surface.u) / (u_size(surface) >> rate_bits());
+        let row = (v - surface.v) / (v_size(surface) >> rate_bits());
+        colours[place] = colour_of(grid_base(index), row, column);
     }
-    atomicStore(&cand_key[pixel], NO_KEY);
+    atomicStore(&cand_patch_u[pixel], NOBODY);
+    atomicStore(&cand_v_draw[pixel], NOBODY);
 }
