@@ -35,6 +35,16 @@ pub enum Error {
         /// What to do about it.
         remedy: String,
     },
+    /// A file without lines does not hold what it should.
+    #[error("{}: {problem}\n  help: {remedy}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and with which part of it.
+        problem: String,
+        /// What to do about it.
+        remedy: String,
+    },
     /// Scene and options do not go together.
     #[error("{problem}\n  help: {remedy}")]
     Scene {
@@ -84,6 +94,10 @@ impl Error {
         Self::Format { path: path.to_owned(), line, problem: problem.into(), remedy: remedy.into() }
     }
 
+    pub(crate) fn content(path: &Path, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::Content { path: path.to_owned(), problem: problem.into(), remedy: remedy.into() }
+    }
+
     /// An error that no single file is to blame for.
     #[must_use]
     pub fn scene(problem: impl Into<String>, remedy: impl Into<String>) -> Self {
@@ -104,10 +118,14 @@ pub(crate) fn line_at(text: &[u8], offset: usize) -> usize {
     1 + text[..offset.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
 }
 
+/// Reads a file.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>> {
+    std::fs::read(path).map_err(|source| Error::Read { path: path.to_owned(), source })
+}
+
 /// Reads a text file.
 pub(crate) fn read_text(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
-    utf8(path, bytes)
+    utf8(path, read_bytes(path)?)
 }
 
 /// The text in these bytes, without a byte order mark.

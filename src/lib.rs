@@ -21,6 +21,7 @@ pub mod devices;
 pub mod error;
 pub mod generate;
 mod image;
+pub mod mscene;
 mod render;
 mod scene;
 pub mod scene_file;

@@ -7,7 +7,7 @@ use micropoly_core::abi::{Frame, MAX_COORDINATE, Object, Patch};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 
 use crate::error::{Error, Result};
-use crate::{bpt, scene_file};
+use crate::{bpt, mscene, scene_file};
 
 /// A bicubic Bézier patch: 16 control points, index `4·i + j` with `i` along u.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,21 +63,23 @@ pub struct DeviceScene {
 }
 
 impl Scene {
-    /// Reads a scene file (`.toml`), or a patch file (`.bpt`) with a camera that shows all of it.
+    /// Reads a scene file (`.toml` or `.mscene`), or a patch file (`.bpt`) with a camera that shows all of it.
     ///
     /// # Errors
-    /// [`Error::Read`], [`Error::Format`] with file and line, or [`Error::Scene`].
+    /// [`Error::Read`], [`Error::Format`] with file and line, [`Error::Content`] with file and what in it, or
+    /// [`Error::Scene`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("bpt") => Self::around(path.display().to_string(), bpt::load(path)?),
             Some("toml") => scene_file::load(path),
+            Some("mscene") => mscene::load(path),
             _ if !path.exists() => {
                 let source = std::io::Error::from(std::io::ErrorKind::NotFound);
                 Err(Error::Read { path: path.to_owned(), source })
             }
             _ => Err(Error::scene(
-                format!("{}: a scene file ends in .toml, a patch file in .bpt", path.display()),
+                format!("{}: a scene file ends in .toml or .mscene, a patch file in .bpt", path.display()),
                 "rename the file, or convert it",
             )),
         }

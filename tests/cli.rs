@@ -5,6 +5,12 @@ use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
+#[path = "mscene_writer/generated.rs"]
+mod mscene;
+mod mscene_writer;
+
+use mscene_writer::Sample;
+
 fn micropoly(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_micropoly")).args(arguments).output().expect("the program starts")
 }
@@ -79,7 +85,7 @@ fn a_good_scene_renders_and_its_statistics_can_be_relied_on() {
 #[test]
 fn files_that_are_not_there_or_not_right_are_refused() {
     let empty = tempfile::tempdir().expect("a folder");
-    for name in ["scene.toml", "patches.bpt", "scene"] {
+    for name in ["scene.toml", "scene.mscene", "patches.bpt", "scene"] {
         assert_refused(render(&empty.path().join(name), &[]), "cannot be read");
     }
     for (text, what) in [
@@ -228,6 +234,42 @@ fn patch_files_render_without_a_scene_file() {
     let path = path.to_str().expect("UTF-8");
     let output = micropoly(&["render", "scenes/teapot.bpt", "-o", path, "--res", "160x90"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// A change to a good scene.
+type Change = fn(&mut Sample);
+
+#[test]
+fn mscene_files_render_and_bad_ones_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("scene.mscene");
+    let good = Sample::good().packed();
+    for (bytes, what) in [
+        (&[][..], "scene.mscene: the file is empty"),
+        (&good[..good.len() / 2], "cut short"),
+        (b"[camera]\n", "not a .mscene file"),
+        (&[0x00, 0xff].repeat(5000), "unpacks to more than"),
+    ] {
+        std::fs::write(&path, bytes).expect("written");
+        let (code, text, image) = render(&path, &[]);
+        assert!(text.contains("help: ") && code == 1, "exit code {code}: {text}");
+        assert_refused((code, text, image), what);
+    }
+    let cases: [(Change, &str); 5] = [
+        (|s| s.cameras.clear(), "the scene has no camera"),
+        (|s| s.objects[0].mesh = "other", "object 1 of 1 (\"an object\"): there is no mesh \"other\""),
+        (|s| s.meshes[0].positions.truncate(45), "mesh 1 of 1 (\"flat\"): its list of positions has 45"),
+        (|s| s.meshes[0].positions[0] = 1e30, "1e12 is the limit"),
+        (|s| s.cameras[0].transform.1 = [0.0; 4], "its rotation is r = 0"),
+    ];
+    for (change, what) in cases {
+        std::fs::write(&path, Sample::with(change).packed()).expect("written");
+        assert_refused(render(&path, &[]), what);
+    }
+    std::fs::write(&path, good).expect("written");
+    assert_eq!(render(&path, &[]).0, 0);
+    let output = micropoly(&["info", path.to_str().expect("UTF-8")]);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("fov 45°, near 0.125"), "{output:?}");
 }
 
 #[test]

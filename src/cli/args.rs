@@ -30,7 +30,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct RenderArguments {
-    /// Scene file (.toml) or patch file (.bpt).
+    /// Scene file (.toml, .mscene) or patch file (.bpt).
     pub(crate) scene: PathBuf,
     /// Image file to write (.png).
     #[arg(short, long, value_name = "FILE", value_parser = png_path)]
@@ -60,7 +60,7 @@ impl RenderArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArguments {
-    /// Scene file (.toml) or patch file (.bpt).
+    /// Scene file (.toml, .mscene) or patch file (.bpt).
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,

@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<()> {
     println!("lights       {} directional, {point_lights} point", scene.lights.len() - point_lights);
     println!(
         "camera       at {:.4} {:.4} {:.4}, fov {}°, near {}",
-        eye.x, eye.y, eye.z, scene.camera.fov, scene.camera.near
+        eye.x, eye.y, eye.z, scene.camera.fov as f32, scene.camera.near as f32
     );
     println!(
         "frame        {}x{} pixels, batches of {} surfaces, {} levels",
