@@ -134,9 +134,10 @@ pub fn render<F: FnMut(&Counts)>(
         let job = Render { scene, options, progress: &mut progress };
         with_device(entry, options.threads, job).map(|rendering| (entry.backend, rendering))
     })?;
-    notes.extend(refusals);
     let (backend, rendering) = rendering;
-    Ok(Rendering { backend, notes, ..rendering? })
+    let rendering = rendering?;
+    notes.extend(refusals.into_iter().chain(rendering.notes.iter().cloned()));
+    Ok(Rendering { backend, notes, ..rendering })
 }
 
 /// What `attempt` makes of the first entry that it does not refuse, and why it refused those before.

@@ -4,8 +4,7 @@ use std::time::Instant;
 
 use micropoly_core::backend::Device;
 use micropoly_core::camera::FrameOptions;
-use micropoly_core::error::PlanError;
-use micropoly_core::memory::{DEFAULT_BATCH, Sizes};
+use micropoly_core::memory::{DEFAULT_BATCH, Room, Sizes};
 use micropoly_core::render::{Counts, FramePlan};
 
 use crate::backend::Backend;
@@ -81,20 +80,19 @@ pub fn render_on<D: Device>(
 ) -> Result<Rendering> {
     let start = Instant::now();
     let DeviceScene { frame, objects, patches } = scene.for_device(&options.frame)?;
-    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-    let batch = chosen_batch(options, count(patches.len()), count(objects.len()))?;
-    let plan =
-        FramePlan::new(frame, count(patches.len()), count(objects.len()), batch).map_err(Error::Plan)?;
+    let room = room_on(&device, &options.frame);
+    let sizes = chosen_sizes(scene, options, room)?;
+    let notes = note_on(options, &sizes, room).into_iter().collect();
+    let plan = FramePlan::new(frame, sizes.patches, sizes.objects, sizes.batch).map_err(Error::Plan)?;
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::Device(error.to_string());
     let buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
-    let bytes_allocated = device.bytes_allocated();
     let setup = start.elapsed().as_secs_f64();
     let counts = plan.run(&mut device, &buffers, progress).map_err(failed)?;
+    let bytes_allocated = device.bytes_allocated();
     let resolving = Instant::now();
     let image = resolve(&mut device, &buffers.colours, scene, &options.frame).map_err(failed)?;
     let seconds = Seconds { setup, resolve: resolving.elapsed().as_secs_f64(), ..device.seconds };
-    let sizes = *plan.sizes();
     Ok(Rendering {
         image,
         counts,
@@ -103,35 +101,48 @@ pub fn render_on<D: Device>(
         device: device_name,
         seconds,
         backend: options.backend,
-        notes: Vec::new(),
+        notes,
     })
 }
 
-/// The batch that was asked for, or the one that fits the budget.
-fn chosen_batch(options: &RenderOptions, patches: u32, objects: u32) -> Result<u32> {
-    match options.batch {
-        Batch::Surfaces(batch) => Ok(batch),
-        Batch::Memory(budget) => {
-            let FrameOptions { width, height, levels, .. } = options.frame;
-            let smallest = Sizes { patches, objects, batch: 1, levels, width, height }.checked();
-            let fitted = smallest.and_then(|sizes| sizes.fitted(budget, DEFAULT_BATCH));
-            fitted.map(|sizes| sizes.batch).map_err(Error::Plan)
-        }
-    }
+/// Sizes with the largest batch that was asked for and that fits the budget and the device.
+fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room) -> Result<Sizes> {
+    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+    let FrameOptions { width, height, levels, .. } = options.frame;
+    let (batch, bytes) = match options.batch {
+        Batch::Surfaces(batch) => (batch, u64::MAX),
+        Batch::Memory(bytes) => (DEFAULT_BATCH, bytes),
+    };
+    let (patches, objects) = (count(scene.patch_count()), count(scene.objects.len()));
+    let sizes = Sizes { patches, objects, batch, levels, width, height }.checked();
+    sizes.and_then(|sizes| sizes.fitted(Room { bytes, ..room })).map_err(Error::Plan)
 }
 
-/// What the plan would allocate for a scene.
+/// What the plan would allocate for a scene on a device without limits of its own.
 ///
 /// # Errors
 /// [`Error::Plan`] if it cannot be rendered so.
 pub fn sizes_for(scene: &Scene, options: &RenderOptions) -> Result<Sizes> {
-    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-    let (patches, objects) = (count(scene.patch_count()), count(scene.objects.len()));
-    let batch = chosen_batch(options, patches, objects)?;
-    let FrameOptions { width, height, levels, .. } = options.frame;
-    let sizes: std::result::Result<Sizes, PlanError> =
-        Sizes { patches, objects, batch, levels, width, height }.checked();
-    sizes.map_err(Error::Plan)
+    chosen_sizes(scene, options, Room::UNLIMITED)
+}
+
+/// What the device leaves to the plan.
+fn room_on<D: Device>(device: &D, options: &FrameOptions) -> Room {
+    let FrameOptions { width, height, rate, .. } = *options;
+    let (taken, buffer_bytes) = (device.own_bytes(width, height, rate), device.max_buffer_bytes());
+    Room { taken, buffer_bytes, ..Room::UNLIMITED }
+}
+
+/// Tells a user whose batch does not fit the device.
+fn note_on(options: &RenderOptions, sizes: &Sizes, room: Room) -> Option<String> {
+    match options.batch {
+        Batch::Surfaces(asked) if asked > sizes.batch => Some(format!(
+            "batches of {} surfaces instead of {asked}, so that no buffer is larger than the {} bytes that the \
+             device binds at once; the image is the same",
+            sizes.batch, room.buffer_bytes
+        )),
+        _ => None,
+    }
 }
 
 fn resolve<D: Device>(

@@ -52,6 +52,14 @@ impl<D: Device> Device for Timed<D> {
         self.device.bytes_allocated()
     }
 
+    fn max_buffer_bytes(&self) -> u64 {
+        self.device.max_buffer_bytes()
+    }
+
+    fn own_bytes(&self, width: u32, height: u32, rate: u32) -> u64 {
+        self.device.own_bytes(width, height, rate)
+    }
+
     fn write<T: Shared>(&mut self, buffer: &D::Buffer, data: &[T]) -> Result<(), D::Error> {
         self.device.write(buffer, data)
     }

@@ -11,7 +11,7 @@ pub(crate) const DRAWS: u64 = 2048;
 /// Pixels a side of a tile; as `TILE` there.
 const TILE: u32 = 16;
 /// Words before the first grid; as `GRIDS` there.
-const GRIDS: u64 = 4 + 2 * DRAWS / 64;
+const GRIDS: u64 = 8 + 2 * DRAWS / 64;
 /// Places in `rounds.wgsl`, in bytes: was a loop cut, chunks begun, is anything left, progress.
 pub(crate) const TRUNCATED: u64 = 8;
 pub(crate) const BEGUN: u64 = 12;
@@ -52,17 +52,26 @@ impl Chunk {
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        (width, height): (u32, u32),
+        image: (u32, u32),
         rate: u32,
     ) -> Result<(), WgpuError> {
-        let tiles = u64::from(width.div_ceil(TILE)) * u64::from(height.div_ceil(TILE));
         let budget = if self.in_rounds { IN_ROUNDS } else { ALL_AT_ONCE };
-        if grow(device, &mut self.rounds, PROGRESS + 8 * tiles, &self.allocated)? {
+        if grow(device, &mut self.rounds, rounds_bytes(image), &self.allocated)? {
             queue.write_buffer(&self.rounds, 0, bytemuck::cast_slice(&budget));
         }
         grow(device, &mut self.grids, grids_bytes(rate), &self.allocated)?;
         Ok(())
     }
+}
+
+/// Bytes of all that a chunk needs for an image of this size and grids of this rate.
+pub(crate) fn bytes(image: (u32, u32), rate: u32) -> u64 {
+    rounds_bytes(image) + grids_bytes(rate)
+}
+
+/// Size of `rounds.wgsl`.
+fn rounds_bytes((width, height): (u32, u32)) -> u64 {
+    PROGRESS + 8 * u64::from(width.div_ceil(TILE)) * u64::from(height.div_ceil(TILE))
 }
 
 /// Size of the grids of a chunk; see `grids.wgsl`.

@@ -248,10 +248,13 @@ fn failed(error: impl ToString) -> WgpuError {
     WgpuError::Failed(error.to_string())
 }
 
-/// Opens an adapter with the limits that every WebGPU device has.
+/// Opens an adapter with the limits that every WebGPU device has, but with its own largest buffers.
 fn request(adapter: &wgpu::Adapter, name: &str) -> Result<(wgpu::Device, wgpu::Queue), WgpuError> {
     let defaults = wgpu::Limits::defaults();
+    let own = adapter.limits();
     let required_limits = wgpu::Limits {
+        max_storage_buffer_binding_size: own.max_storage_buffer_binding_size,
+        max_buffer_size: own.max_buffer_size,
         max_storage_buffers_per_shader_stage: defaults.max_storage_buffers_per_shader_stage,
         max_compute_workgroup_storage_size: defaults.max_compute_workgroup_storage_size,
         ..wgpu::Limits::downlevel_defaults()
@@ -309,8 +312,7 @@ impl Device for WgpuDevice {
         entries: u64,
     ) -> Result<WgpuBuffer, WgpuError> {
         let bytes = entries.max(1).saturating_mul(layout.size as u64);
-        let limits = self.device.limits();
-        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let limit = self.max_buffer_bytes();
         if bytes > limit {
             return Err(WgpuError::TooLarge { buffer: name, bytes, limit });
         }
@@ -325,6 +327,15 @@ impl Device for WgpuDevice {
 
     fn bytes_allocated(&self) -> u64 {
         self.allocated.load(Ordering::Relaxed)
+    }
+
+    fn max_buffer_bytes(&self) -> u64 {
+        let limits = self.device.limits();
+        limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
+    }
+
+    fn own_bytes(&self, width: u32, height: u32, rate: u32) -> u64 {
+        chunk::bytes((width, height), rate)
     }
 
     fn write<T: Shared>(&mut self, buffer: &WgpuBuffer, data: &[T]) -> Result<(), WgpuError> {

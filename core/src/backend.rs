@@ -28,6 +28,17 @@ pub trait Device {
     /// Bytes reserved by [`Device::allocate`] and not yet freed.
     fn bytes_allocated(&self) -> u64;
 
+    /// Largest buffer that [`Device::allocate`] can reserve, in bytes.
+    fn max_buffer_bytes(&self) -> u64 {
+        u64::MAX
+    }
+
+    /// Bytes that the device needs for itself, beside the plan's buffers, to draw an image of this width and
+    /// height in pixels with this dice rate.
+    fn own_bytes(&self, _width: u32, _height: u32, _rate: u32) -> u64 {
+        0
+    }
+
     /// Copies `data` to the start of a buffer.
     ///
     /// # Errors

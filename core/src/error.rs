@@ -23,6 +23,15 @@ pub enum PlanError {
         /// Bytes the smallest possible plan needs.
         needed: u64,
     },
+    /// A buffer that does not depend on the batch is larger than the device reserves in one piece.
+    TooLarge {
+        /// Name of the buffer.
+        buffer: &'static str,
+        /// Its size in bytes.
+        bytes: u64,
+        /// Largest size in bytes.
+        limit: u64,
+    },
     /// A buffer ran full although its size was proven: smaller buffers were passed than the plan asked for.
     Overflow {
         /// Name of the buffer.
@@ -42,6 +51,12 @@ impl fmt::Display for PlanError {
                 write!(
                     f,
                     "a memory budget of {have} bytes is too small; this frame needs at least {needed} bytes"
+                )
+            }
+            Self::TooLarge { buffer, bytes, limit } => {
+                write!(
+                    f,
+                    "the {buffer} buffer needs {bytes} bytes, but the device binds {limit} bytes at most at once"
                 )
             }
             Self::Overflow { buffer, excess } => {

@@ -139,19 +139,54 @@ impl Sizes {
             + self.draw_entries() * size_of::<Draw>() as u64
     }
 
-    /// The same frame with the largest batch, up to `most`, whose buffers fit into `budget` bytes.
+    /// Name and bytes of the largest buffer.
+    #[must_use]
+    pub const fn largest_buffer(&self) -> (&'static str, u64) {
+        let all = [
+            ("patches", self.patches as u64 * size_of::<Patch>() as u64),
+            ("objects", self.objects as u64 * size_of::<Object>() as u64),
+            ("samples", self.pixels() * size_of::<Sample>() as u64),
+            ("colours", self.pixels() * size_of::<Colour>() as u64),
+            ("stack", self.stack_entries() * size_of::<Surface>() as u64),
+            ("draws", self.draw_entries() * size_of::<Draw>() as u64),
+            ("batch", self.batch as u64 * size_of::<Surface>() as u64),
+        ];
+        let (mut largest, mut index) = (all[0], 1);
+        while index < all.len() {
+            if all[index].1 > largest.1 {
+                largest = all[index];
+            }
+            index += 1;
+        }
+        largest
+    }
+
+    const fn fit(&self, room: Room) -> bool {
+        self.bytes().saturating_add(room.taken) <= room.bytes && self.largest_buffer().1 <= room.buffer_bytes
+    }
+
+    /// The same frame with the largest batch, up to its own, whose buffers fit.
     ///
     /// # Errors
-    /// [`PlanError::Budget`] names the smallest budget if a batch of one surface does not fit.
-    pub const fn fitted(self, budget: u64, most: u32) -> Result<Self, PlanError> {
-        let smallest = Self { batch: 1, ..self };
-        if smallest.bytes() > budget {
-            return Err(PlanError::Budget { have: budget, needed: smallest.bytes() });
+    /// If a batch of one surface does not fit: [`PlanError::TooLarge`] names a buffer,
+    /// [`PlanError::Budget`] the smallest budget.
+    pub const fn fitted(self, room: Room) -> Result<Self, PlanError> {
+        if self.fit(room) {
+            return Ok(self);
         }
-        let (mut fits, mut beyond) = (1, most + 1);
+        let smallest = Self { batch: 1, ..self };
+        if !smallest.fit(room) {
+            let (buffer, bytes) = smallest.largest_buffer();
+            if bytes > room.buffer_bytes {
+                return Err(PlanError::TooLarge { buffer, bytes, limit: room.buffer_bytes });
+            }
+            let needed = smallest.bytes().saturating_add(room.taken);
+            return Err(PlanError::Budget { have: room.bytes, needed });
+        }
+        let (mut fits, mut beyond) = (1, self.batch);
         while beyond - fits > 1 {
             let middle = fits + (beyond - fits) / 2;
-            if (Self { batch: middle, ..self }).bytes() <= budget {
+            if (Self { batch: middle, ..self }).fit(room) {
                 fits = middle;
             } else {
                 beyond = middle;
@@ -159,6 +194,22 @@ impl Sizes {
         }
         Ok(Self { batch: fits, ..self })
     }
+}
+
+/// What a frame's buffers must fit into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Room {
+    /// Bytes of all buffers together.
+    pub bytes: u64,
+    /// Bytes of these that the device takes for itself.
+    pub taken: u64,
+    /// Bytes of the largest single buffer.
+    pub buffer_bytes: u64,
+}
+
+impl Room {
+    /// No end of it.
+    pub const UNLIMITED: Self = Self { bytes: u64::MAX, taken: 0, buffer_bytes: u64::MAX };
 }
 
 const fn invalid(option: &'static str, value: u64, least: u64, most: u64) -> PlanError {

@@ -19,6 +19,7 @@ fn main(@builtin(local_invocation_index) block: u32) {
     }
     grids[HEAD_START] = start;
     grids[HEAD_COUNT] = count;
+    put_tiles();
     grids[HEAD_KINDS] = 0u;
     grids[HEAD_KINDS + 1u] = 0u;
     rounds.chunk += 1u;
@@ -36,16 +37,36 @@ fn clamped(waiting: u32, start: u32) -> u32 {
 
 // The pixels that the draws of a block can touch, packed as those of a draw.
 fn box_of(block: u32, start: u32, end: u32) {
-    var low = vec2<u32>(0xffffu, 0xffffu);
-    var high = vec2<u32>(0u, 0u);
+    var extents = vec2<u32>(0xffffu, 0xffffu);
     for (var index = 0u; index < BLOCK; index++) {
         let item = start + block * BLOCK + index;
         if item < end {
-            let extents = vec2<u32>(draws[item].columns, draws[item].rows);
-            low = select(low, extents & vec2<u32>(0xffffu), (extents & vec2<u32>(0xffffu)) < low);
-            high = select(high, extents >> vec2<u32>(16u), (extents >> vec2<u32>(16u)) > high);
+            extents = joined(extents, vec2<u32>(draws[item].columns, draws[item].rows));
         }
     }
-    grids[BOXES + 2u * block] = low.x | (high.x << 16u);
-    grids[BOXES + 2u * block + 1u] = low.y | (high.y << 16u);
+    grids[BOXES + 2u * block] = extents.x;
+    grids[BOXES + 2u * block + 1u] = extents.y;
+}
+
+// The box around two, columns and rows.
+fn joined(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
+    let mask = vec2<u32>(0xffffu);
+    let half = vec2<u32>(16u);
+    let low = select(b & mask, a & mask, (a & mask) < (b & mask));
+    let high = select(b >> half, a >> half, (a >> half) > (b >> half));
+    return low | (high << half);
+}
+
+// The tiles that the boxes of all blocks touch.
+fn put_tiles() {
+    var extents = vec2<u32>(0xffffu, 0xffffu);
+    for (var block = 0u; block < BLOCKS; block++) {
+        extents = joined(extents, vec2<u32>(grids[BOXES + 2u * block], grids[BOXES + 2u * block + 1u]));
+    }
+    for (var k = 0u; k < 2u; k++) {
+        let first = (extents[k] & 0xffffu) / TILE;
+        let end = tiles(extents[k] >> 16u);
+        grids[HEAD_TILES + 2u * k] = first;
+        grids[HEAD_TILES + 2u * k + 1u] = select(0u, end - first, end > first);
+    }
 }

@@ -9,8 +9,8 @@
 fn main() {
     for (var kind = 0u; kind < 2u; kind++) {
         let wanted = select(rounds.unfinished[kind], grids[HEAD_KINDS + kind], rounds.round == 0u);
-        groups[3u * kind] = tiles(frame.width);
-        groups[3u * kind + 1u] = tiles(frame.height);
+        groups[3u * kind] = grids[HEAD_TILES + 1u];
+        groups[3u * kind + 1u] = grids[HEAD_TILES + 3u];
         groups[3u * kind + 2u] = select(0u, 1u, wanted != 0u);
         rounds.unfinished[kind] = 0u;
     }

@@ -26,7 +26,10 @@ const SEAM_BITS: u32 = 4u;
 const SEAM_CHORD: u32 = 8u;
 const SEAM_LONGEST: u32 = 7u;
 
-const BOXES: u32 = 4u;
+// The tiles that its draws can touch: the first, and how many, along columns and rows.
+const HEAD_TILES: u32 = 4u;
+
+const BOXES: u32 = 8u;
 const GRIDS: u32 = BOXES + 2u * BLOCKS;
 // Ends of the chords beyond the four borders.
 const ENDS: u32 = 8u;

@@ -21,11 +21,13 @@ var<workgroup> round_shared: vec2<u32>;
 @compute @workgroup_size(GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     ZERO = frame.zero;
-    let left = i32(group.x * TILE);
-    let top = i32(group.y * TILE);
+    let tile_x = grids[HEAD_TILES] + group.x;
+    let tile_y = grids[HEAD_TILES + 2u] + group.y;
+    let left = i32(tile_x * TILE);
+    let top = i32(tile_y * TILE);
     tile = vec4<i32>(
         left, imin(left + i32(TILE), i32(frame.width)), top, imin(top + i32(TILE), i32(frame.height)));
-    let place = ((KIND - 1u) * tiles(frame.height) + group.y) * tiles(frame.width) + group.x;
+    let place = ((KIND - 1u) * tiles(frame.height) + tile_y) * tiles(frame.width) + tile_x;
     if lane == 0u {
         let first = select(0u, rounds.progress[place], rounds.round > 1u);
         round_shared = vec2<u32>(first, rounds.budget[KIND - 1u]);
