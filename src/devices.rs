@@ -28,6 +28,7 @@ impl DeviceEntry {
     }
 
     /// It could not be opened.
+    #[cfg(any(feature = "cpu", feature = "wgpu", feature = "ocl", test))]
     pub(crate) fn refused(&self, why: impl ToString) -> Error {
         let why = why.to_string();
         let help = if why.contains("help: ") { "" } else { "\n  help: use another device, or --backend cpu" };

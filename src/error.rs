@@ -110,7 +110,7 @@ fn remedy(error: &PlanError) -> String {
         PlanError::Invalid { option, least, most, .. } => format!("choose a {option} from {least} to {most}"),
         PlanError::Budget { needed, .. } => format!("use --memory {needed} or more, or a smaller --res"),
         PlanError::TooLarge { .. } => {
-            "use another device (see `micropoly devices`), --backend cpu, or a smaller scene or --res"
+            "use another device (see `micropoly devices` for limits), --backend cpu, or a smaller scene or --res"
                 .to_owned()
         }
         PlanError::Overflow { .. } => "this is a bug: please report it with the scene".to_owned(),

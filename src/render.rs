@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use micropoly_core::abi::{Patch, Sample, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::camera::FrameOptions;
 use micropoly_core::memory::{DEFAULT_BATCH, Room, Sizes};
@@ -129,8 +130,12 @@ pub fn sizes_for(scene: &Scene, options: &RenderOptions) -> Result<Sizes> {
 /// What the device leaves to the plan.
 fn room_on<D: Device>(device: &D, options: &FrameOptions) -> Room {
     let FrameOptions { width, height, rate, .. } = *options;
-    let (taken, buffer_bytes) = (device.own_bytes(width, height, rate), device.max_buffer_bytes());
-    Room { taken, buffer_bytes, ..Room::UNLIMITED }
+    Room {
+        taken: device.own_bytes(width, height, rate),
+        buffer_bytes: device.max_buffer_bytes(Sample::LAYOUT),
+        patch_bytes: device.max_buffer_bytes(Patch::LAYOUT),
+        ..Room::UNLIMITED
+    }
 }
 
 /// Tells a user whose batch does not fit the device.

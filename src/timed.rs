@@ -52,8 +52,8 @@ impl<D: Device> Device for Timed<D> {
         self.device.bytes_allocated()
     }
 
-    fn max_buffer_bytes(&self) -> u64 {
-        self.device.max_buffer_bytes()
+    fn max_buffer_bytes(&self, layout: Layout) -> u64 {
+        self.device.max_buffer_bytes(layout)
     }
 
     fn own_bytes(&self, width: u32, height: u32, rate: u32) -> u64 {

@@ -14,6 +14,8 @@ pub struct WgpuBuffer {
     layout: Layout,
     entries: u64,
     memory: wgpu::Buffer,
+    /// Patches have a second piece, for those that the first has no room for.
+    more: Option<wgpu::Buffer>,
     allocated: Arc<AtomicU64>,
 }
 
@@ -23,16 +25,32 @@ impl WgpuBuffer {
         name: &'static str,
         layout: Layout,
         entries: u64,
-        memory: wgpu::Buffer,
+        (memory, more): (wgpu::Buffer, Option<wgpu::Buffer>),
         allocated: &Arc<AtomicU64>,
     ) -> Self {
         allocated.fetch_add(entries * layout.size as u64, Ordering::Relaxed);
-        Self { name, layout, entries, memory, allocated: Arc::clone(allocated) }
+        Self { name, layout, entries, memory, more, allocated: Arc::clone(allocated) }
     }
 
     /// Number of its entries.
     pub(crate) fn entries(&self) -> u64 {
         self.entries
+    }
+
+    /// Its second piece.
+    pub(crate) fn more(&self) -> Option<&wgpu::Buffer> {
+        self.more.as_ref()
+    }
+
+    /// The piece that has the byte at `offset`, the offset within it, and how many bytes it has from there on.
+    pub(crate) fn piece(&self, offset: u64) -> (&wgpu::Buffer, u64, u64) {
+        match &self.more {
+            Some(more) if offset >= self.memory.size() => {
+                let within = offset - self.memory.size();
+                (more, within, more.size() - within)
+            }
+            _ => (&self.memory, offset, self.memory.size() - offset),
+        }
     }
 
     /// The memory itself.

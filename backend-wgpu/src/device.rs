@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 
-use micropoly_core::abi::{Layout, Shared};
+use micropoly_core::abi::{Layout, Patch, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::known;
 use micropoly_core::stage::{Items, Stage};
@@ -42,6 +42,7 @@ pub struct WgpuDevice {
     pending: u32,
     failure: Arc<Mutex<Option<String>>>,
     allocated: Arc<AtomicU64>,
+    buffer_limit: u64,
 }
 
 impl WgpuDevice {
@@ -84,7 +85,20 @@ impl WgpuDevice {
             pending: 0,
             failure,
             allocated,
+            buffer_limit: u64::MAX,
         })
+    }
+
+    /// Pretends that no more bytes can be bound at once. For tests.
+    pub fn limit_buffers(&mut self, bytes: u64) {
+        self.buffer_limit = bytes;
+    }
+
+    /// Largest piece of whole entries that can be bound, in bytes.
+    fn piece_bytes(&self, layout: Layout) -> u64 {
+        let limits = self.device.limits();
+        let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(self.buffer_limit);
+        limit - limit % layout.size as u64
     }
 
     /// What the device is called in reports.
@@ -172,7 +186,8 @@ impl WgpuDevice {
             (self.chunk.grids.clone(), self.chunk.rounds.clone(), self.groups.clone());
         let arranged = [b.frame, b.control, b.draws, &grids, &rounds, &groups];
         self.record(Which::ArrangeDraw, &arranged, Groups::Known(1, 1));
-        self.record(Which::Draw, &[b.frame, b.objects, b.patches, b.draws, &grids], Groups::Arranged);
+        let diced = [b.frame, b.objects, b.patches, b.draws, &grids, b.more_patches];
+        self.record(Which::Draw, &diced, Groups::Arranged);
         self.sample_tiles(b);
     }
 
@@ -216,6 +231,7 @@ struct DrawBuffers<'a> {
     frame: &'a wgpu::Buffer,
     objects: &'a wgpu::Buffer,
     patches: &'a wgpu::Buffer,
+    more_patches: &'a wgpu::Buffer,
     control: &'a wgpu::Buffer,
     draws: &'a wgpu::Buffer,
     samples: &'a wgpu::Buffer,
@@ -312,26 +328,31 @@ impl Device for WgpuDevice {
         entries: u64,
     ) -> Result<WgpuBuffer, WgpuError> {
         let bytes = entries.max(1).saturating_mul(layout.size as u64);
-        let limit = self.max_buffer_bytes();
+        let limit = self.max_buffer_bytes(layout);
         if bytes > limit {
             return Err(WgpuError::TooLarge { buffer: name, bytes, limit });
         }
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
         let errors = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
-        let memory = memory(&self.device, name, bytes, usage);
+        let first = bytes.min(self.piece_bytes(layout));
+        let rest = (bytes - first).max(layout.size as u64);
+        let memories = (
+            memory(&self.device, name, first, usage),
+            (layout == Patch::LAYOUT).then(|| memory(&self.device, "patches_more", rest, usage)),
+        );
         if pollster::block_on(errors.pop()).is_some() {
             return Err(WgpuError::OutOfMemory { buffer: name, bytes });
         }
-        Ok(WgpuBuffer::new(name, layout, entries, memory, &self.allocated))
+        Ok(WgpuBuffer::new(name, layout, entries, memories, &self.allocated))
     }
 
     fn bytes_allocated(&self) -> u64 {
         self.allocated.load(Ordering::Relaxed)
     }
 
-    fn max_buffer_bytes(&self) -> u64 {
-        let limits = self.device.limits();
-        limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
+    fn max_buffer_bytes(&self, layout: Layout) -> u64 {
+        let pieces = if layout == Patch::LAYOUT { 2 } else { 1 };
+        pieces * self.piece_bytes(layout)
     }
 
     fn own_bytes(&self, width: u32, height: u32, rate: u32) -> u64 {
@@ -339,17 +360,26 @@ impl Device for WgpuDevice {
     }
 
     fn write<T: Shared>(&mut self, buffer: &WgpuBuffer, data: &[T]) -> Result<(), WgpuError> {
-        let offset = buffer.offset_of::<T>(0, data.len())?;
+        let mut offset = buffer.offset_of::<T>(0, data.len())?;
         self.submit(); // what was dispatched before must not see the new data
-        self.queue.write_buffer(buffer.memory(), offset, bytemuck::cast_slice(data));
+        let mut data: &[u8] = bytemuck::cast_slice(data);
+        while !data.is_empty() {
+            let (piece, within, room) = buffer.piece(offset);
+            let (now, later) = data.split_at(data.len().min(room as usize));
+            self.queue.write_buffer(piece, within, now);
+            (data, offset) = (later, offset + now.len() as u64);
+        }
         self.checked()
     }
 
     fn read<T: Shared>(&mut self, buffer: &WgpuBuffer, first: u64, out: &mut [T]) -> Result<(), WgpuError> {
         let mut offset = buffer.offset_of::<T>(first, out.len())?;
-        for piece in bytemuck::cast_slice_mut::<T, u8>(out).chunks_mut(STAGING_BYTES as usize) {
-            self.read_piece(buffer.memory(), offset, piece)?;
-            offset += piece.len() as u64;
+        let mut out: &mut [u8] = bytemuck::cast_slice_mut(out);
+        while !out.is_empty() {
+            let (piece, within, room) = buffer.piece(offset);
+            let (now, later) = out.split_at_mut(out.len().min(room.min(STAGING_BYTES) as usize));
+            self.read_piece(piece, within, now)?;
+            (out, offset) = (later, offset + now.len() as u64);
         }
         self.checked()
     }
@@ -363,6 +393,7 @@ impl Device for WgpuDevice {
             buffer.check_layout(binding.layout)?;
         }
         let memories: Vec<_> = buffers.iter().map(|buffer| buffer.memory()).collect();
+        let more = buffers.iter().find_map(|buffer| buffer.more());
         if let (Stage::Draw, Items::Image { width, height, rate }) = (stage, items) {
             let &[frame, objects, patches, control, draws, samples, colours] = &memories[..] else {
                 return Err(WgpuError::Bindings { stage: stage.name() });
@@ -373,6 +404,7 @@ impl Device for WgpuDevice {
                 frame,
                 objects,
                 patches,
+                more_patches: more.unwrap_or(patches),
                 control,
                 draws,
                 samples,
@@ -384,6 +416,7 @@ impl Device for WgpuDevice {
             return self.checked();
         }
         let groups = self.groups(stage, items, buffers)?;
+        let memories: Vec<_> = memories.into_iter().chain(more).collect();
         self.record(Which::Stage(stage), &memories, groups);
         if self.pending >= MOST_PENDING {
             self.submit();

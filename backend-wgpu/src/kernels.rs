@@ -156,19 +156,29 @@ impl Which {
             |names: &[&'static str]| names.iter().map(|name| (*name, Access::Write)).collect::<Vec<_>>();
         match self {
             Self::Stage(stage) => {
-                stage.bindings().iter().map(|binding| (binding.name, binding.access)).collect()
+                let own = stage.bindings().iter().map(|binding| (binding.name, binding.access));
+                own.chain(more_patches(stage)).collect()
             }
             Self::Arrange => [read(&["control"]), write(&["groups"])].concat(),
             Self::ArrangeDraw => {
                 [read(&["frame", "control", "draws"]), write(&["grids", "rounds", "groups"])].concat()
             }
-            Self::Draw => [read(&["frame", "objects", "patches", "draws"]), write(&["grids"])].concat(),
+            Self::Draw => {
+                let own = [read(&["frame", "objects", "patches", "draws"]), write(&["grids"])].concat();
+                own.into_iter().chain(more_patches(Stage::Draw)).collect()
+            }
             Self::ArrangeTiles => [read(&["frame", "grids"]), write(&["rounds", "groups"])].concat(),
             Self::Tiles(_) => {
                 [read(&["frame", "draws", "grids"]), write(&["samples", "colours", "rounds"])].concat()
             }
         }
     }
+}
+
+/// The second half of the patches, for stages that read patches: one buffer may be too large to be bound.
+fn more_patches(stage: Stage) -> Option<(&'static str, Access)> {
+    let reads_patches = stage.bindings().iter().any(|binding| binding.name == "patches");
+    reads_patches.then_some(("patches_more", Access::Read))
 }
 
 /// A compiled kernel and the layout of its bindings.

@@ -4,7 +4,7 @@ use micropoly::{FrameOptions, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
 use micropoly_conformance::{Case, Outcome, run};
-use micropoly_core::abi::{Control, Limits, Shared, Surface};
+use micropoly_core::abi::{Control, Limits, Patch, Shared, Surface};
 use micropoly_core::backend::Device;
 use micropoly_core::stage::{Items, Stage};
 
@@ -114,15 +114,30 @@ fn a_buffer_beyond_the_limits_is_an_error() {
     );
 }
 
-/// With all draws in one round llvmpipe cuts the loops short; that may fail, but must not give other bits.
+/// Patches that one binding has no room for lie in two.
+#[test]
+fn patches_in_two_pieces_give_the_same_bits() {
+    let case = case("spheres", FrameOptions { width: 160, height: 90, ..FrameOptions::default() });
+    let mut device = open();
+    device.limit_buffers(250_000);
+    assert!(case.patches.len() as u64 * Patch::LAYOUT.size as u64 > 250_000);
+    assert_eq!(run(&mut device, &case, 500).expect("renders"), on_cpu(&case));
+}
+
+/// llvmpipe ends loops after 65535 iterations; that may fail, but must not give other bits.
 #[test]
 fn a_loop_that_the_driver_cuts_is_an_error() {
-    let one_round = |file: &str, source: &str| match file {
-        "draw.wgsl" => source.replace("rounds.enough, rounds.budget", "rounds.enough, 0xffffffffu"),
+    let start = "let count = grids[HEAD_COUNT];";
+    let spin = "var spin = 0u; while spin < 70000u + ZERO { spin += 1u + ZERO; }";
+    let endless = |file: &str, source: &str| match file {
+        "tiles.wgsl" => {
+            assert!(source.contains(start));
+            source.replace(start, &format!("{spin} {start}"))
+        }
         _ => source.to_owned(),
     };
     let case = case("spheres", small());
-    let mut device = WgpuDevice::open(0, Some(&one_round)).expect("opens");
+    let mut device = WgpuDevice::open(0, Some(&endless)).expect("opens");
     match run(&mut device, &case, 4096) {
         Ok(outcome) => assert_eq!(outcome, on_cpu(&case)),
         Err(error) => assert!(error.to_string().contains("ended a loop early"), "{error}"),

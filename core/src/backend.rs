@@ -28,8 +28,8 @@ pub trait Device {
     /// Bytes reserved by [`Device::allocate`] and not yet freed.
     fn bytes_allocated(&self) -> u64;
 
-    /// Largest buffer that [`Device::allocate`] can reserve, in bytes.
-    fn max_buffer_bytes(&self) -> u64 {
+    /// Largest buffer of entries of this layout that [`Device::allocate`] can reserve, in bytes.
+    fn max_buffer_bytes(&self, _layout: Layout) -> u64 {
         u64::MAX
     }
 

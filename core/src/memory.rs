@@ -123,7 +123,7 @@ impl Sizes {
 
     /// Bytes of everything that does not depend on the batch.
     const fn fixed_bytes(&self) -> u64 {
-        self.patches as u64 * size_of::<Patch>() as u64
+        self.patch_bytes()
             + self.objects as u64 * size_of::<Object>() as u64
             + self.pixels() * (size_of::<Sample>() + size_of::<Colour>()) as u64
             + (size_of::<Frame>() + size_of::<Control>() + size_of::<Limits>()) as u64
@@ -139,11 +139,13 @@ impl Sizes {
             + self.draw_entries() * size_of::<Draw>() as u64
     }
 
-    /// Name and bytes of the largest buffer.
-    #[must_use]
-    pub const fn largest_buffer(&self) -> (&'static str, u64) {
+    const fn patch_bytes(&self) -> u64 {
+        self.patches as u64 * size_of::<Patch>() as u64
+    }
+
+    /// Name and bytes of the largest buffer but the patches'.
+    const fn largest_buffer(&self) -> (&'static str, u64) {
         let all = [
-            ("patches", self.patches as u64 * size_of::<Patch>() as u64),
             ("objects", self.objects as u64 * size_of::<Object>() as u64),
             ("samples", self.pixels() * size_of::<Sample>() as u64),
             ("colours", self.pixels() * size_of::<Colour>() as u64),
@@ -161,8 +163,19 @@ impl Sizes {
         largest
     }
 
+    /// The buffer that is larger than what the device can reserve.
+    const fn too_large(&self, room: Room) -> Option<PlanError> {
+        let (bytes, limit) = (self.patch_bytes(), room.patch_bytes);
+        if bytes > limit {
+            return Some(PlanError::TooLarge { buffer: "patches", bytes, limit });
+        }
+        let (buffer, bytes) = self.largest_buffer();
+        let limit = room.buffer_bytes;
+        if bytes > limit { Some(PlanError::TooLarge { buffer, bytes, limit }) } else { None }
+    }
+
     const fn fit(&self, room: Room) -> bool {
-        self.bytes().saturating_add(room.taken) <= room.bytes && self.largest_buffer().1 <= room.buffer_bytes
+        self.bytes().saturating_add(room.taken) <= room.bytes && self.too_large(room).is_none()
     }
 
     /// The same frame with the largest batch, up to its own, whose buffers fit.
@@ -176,9 +189,8 @@ impl Sizes {
         }
         let smallest = Self { batch: 1, ..self };
         if !smallest.fit(room) {
-            let (buffer, bytes) = smallest.largest_buffer();
-            if bytes > room.buffer_bytes {
-                return Err(PlanError::TooLarge { buffer, bytes, limit: room.buffer_bytes });
+            if let Some(error) = smallest.too_large(room) {
+                return Err(error);
             }
             let needed = smallest.bytes().saturating_add(room.taken);
             return Err(PlanError::Budget { have: room.bytes, needed });
@@ -203,13 +215,16 @@ pub struct Room {
     pub bytes: u64,
     /// Bytes of these that the device takes for itself.
     pub taken: u64,
-    /// Bytes of the largest single buffer.
+    /// Bytes of the largest single buffer, unless it is that of the patches.
     pub buffer_bytes: u64,
+    /// Bytes of the largest buffer of patches.
+    pub patch_bytes: u64,
 }
 
 impl Room {
     /// No end of it.
-    pub const UNLIMITED: Self = Self { bytes: u64::MAX, taken: 0, buffer_bytes: u64::MAX };
+    pub const UNLIMITED: Self =
+        Self { bytes: u64::MAX, taken: 0, buffer_bytes: u64::MAX, patch_bytes: u64::MAX };
 }
 
 const fn invalid(option: &'static str, value: u64, least: u64, most: u64) -> PlanError {

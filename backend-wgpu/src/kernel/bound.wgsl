@@ -7,6 +7,7 @@
 @group(0) @binding(4) var<storage, read> stack: array<Surface>;
 @group(0) @binding(5) var<storage, read_write> batch: array<Surface>;
 @group(0) @binding(6) var<storage, read_write> verdicts: array<Verdict>;
+@group(0) @binding(7) var<storage, read> patches_more: array<Patch>;
 
 @compute @workgroup_size(ITEM_GROUP)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {

@@ -5,6 +5,7 @@
 @group(0) @binding(2) var<storage, read> patches: array<Patch>;
 @group(0) @binding(3) var<storage, read> draws: array<Draw>;
 @group(0) @binding(4) var<storage, read_write> grids: array<u32>;
+@group(0) @binding(5) var<storage, read> patches_more: array<Patch>;
 
 const GROUP: u32 = 64u;
 // A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `near` in `triangle.wgsl`.
@@ -25,7 +26,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     ZERO = frame.zero;
     let draw = draws[grids[HEAD_START] + group.x];
     let surface = surface_of(draw);
-    let object = patches[draw.patch_id].object;
+    let object = object_of(draw.patch_id);
     let base = grid_base(group.x);
     prepare(surface, lane);
     workgroupBarrier();

@@ -6,15 +6,33 @@ struct Net {
     z: array<f32, 16>,
 }
 
+// Patches beyond the length of `patches` lie in `patches_more`: one buffer may be too large to be bound.
+fn object_of(patch_id: u32) -> u32 {
+    let here = arrayLength(&patches);
+    if patch_id < here {
+        return patches[patch_id].object;
+    }
+    return patches_more[patch_id - here].object;
+}
+
+fn control_point(patch_id: u32, l: u32) -> vec3<f32> {
+    let here = arrayLength(&patches);
+    if patch_id < here {
+        return vec3<f32>(patches[patch_id].x[l], patches[patch_id].y[l], patches[patch_id].z[l]);
+    }
+    let there = patch_id - here;
+    return vec3<f32>(patches_more[there].x[l], patches_more[there].y[l], patches_more[there].z[l]);
+}
+
 // One eye-space coordinate (0, 1, 2) of control point `l`.
 fn transformed(patch_id: u32, k: u32, l: u32) -> f32 {
-    let object = patches[patch_id].object;
+    let object = object_of(patch_id);
+    let p = control_point(patch_id, l);
     let m0 = objects[object].to_eye[4u * k];
     let m1 = objects[object].to_eye[4u * k + 1u];
     let m2 = objects[object].to_eye[4u * k + 2u];
     let m3 = objects[object].to_eye[4u * k + 3u];
-    let xy = add(mul(m0, patches[patch_id].x[l]), mul(m1, patches[patch_id].y[l]));
-    return add(add(xy, mul(m2, patches[patch_id].z[l])), m3);
+    return add(add(add(mul(m0, p.x), mul(m1, p.y)), mul(m2, p.z)), m3);
 }
 
 fn in_eye_space(patch_id: u32) -> Net {
