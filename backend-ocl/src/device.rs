@@ -1,4 +1,4 @@
-//! An OpenCL device: one context, one queue that keeps order, one kernel a stage.
+//! An OpenCL device: one context, one queue that keeps order, and its kernels.
 #![allow(unsafe_code)] // OpenCL's calls; buffers are checked against the stage before each of them
 
 use std::fmt;
@@ -15,13 +15,14 @@ use opencl3::device::Device as ClDevice;
 use opencl3::kernel::Kernel;
 
 use crate::buffer::OclBuffer;
+use crate::chunk;
 use crate::error::OclError;
 use crate::list::{DeviceInfo, found, info};
-use crate::program::{GROUP, build};
+use crate::program::{GROUP, Kind, Which, build};
 
-/// Pixels a side of the tile that a work-group of `draw` owns; `TILE` in `sample.cl`.
-const TILE: usize = 16;
-/// Bytes of local memory that a work-group of `draw` needs at most.
+/// Pixels a side of the tile that a work-group samples; `TILE` in `grids.cl`.
+const TILE: u32 = 16;
+/// Bytes of local memory that a work-group needs at most.
 const LOCAL_MEMORY: u64 = 16 << 10;
 
 /// Gives a kernel file's name and source, takes the source to be built.
@@ -55,7 +56,10 @@ impl fmt::Debug for OpenOptions<'_> {
 #[derive(Debug)]
 pub struct OclDevice {
     info: DeviceInfo,
+    /// As [`Which::ALL`].
     kernels: Vec<Kernel>,
+    /// Grids of the fused stage, kept from frame to frame; none before the first.
+    grids: Option<OclBuffer>,
     queue: CommandQueue,
     context: Context,
     allocated: Arc<AtomicU64>,
@@ -82,7 +86,7 @@ impl OclDevice {
         let context = Context::from_device(device).map_err(OclError::driver("opening the device"))?;
         let queue = CommandQueue::create_default(&context, 0).map_err(OclError::driver("making a queue"))?;
         let kernels = build(&context, &info.name, options)?;
-        Ok(Self { info, kernels, queue, context, allocated: Arc::default() })
+        Ok(Self { info, kernels, grids: None, queue, context, allocated: Arc::default() })
     }
 
     fn check_answers(&mut self) -> Result<(), OclError> {
@@ -104,16 +108,16 @@ impl OclDevice {
         &self.info
     }
 
-    fn enqueue(&self, stage: Stage, grid: Grid, buffers: &[&OclBuffer]) -> Result<(), OclError> {
-        let kernel = &self.kernels[stage as usize];
-        let failed = OclError::driver(stage.name());
+    fn enqueue(&self, which: Which, buffers: &[&OclBuffer], grid: Grid) -> Result<(), OclError> {
+        let kernel = &self.kernels[which.index()];
+        let failed = OclError::driver(which.name());
         for (place, buffer) in (0..).zip(buffers) {
-            // SAFETY: the kernel takes the buffers of the stage's bindings, which were checked.
+            // SAFETY: the kernel takes these buffers; those of a stage were checked against its bindings.
             unsafe { kernel.set_arg(place, &buffer.handle()) }.map_err(&failed)?;
         }
-        if let Some(count) = grid.count {
-            // SAFETY: kernels whose count the host knows take it after their buffers.
-            unsafe { kernel.set_arg(buffers.len() as u32, &count) }.map_err(&failed)?;
+        if let Some(number) = grid.number {
+            // SAFETY: kernels that are told a number take it after their buffers.
+            unsafe { kernel.set_arg(buffers.len() as u32, &number) }.map_err(&failed)?;
         }
         let global = grid.groups.map(|groups| groups.max(1));
         let global = [global[0] * GROUP, global[1]];
@@ -130,7 +134,39 @@ impl OclDevice {
             )
         }
         .map_err(&failed)?;
-        self.queue.flush().map_err(&failed)
+        Ok(())
+    }
+
+    /// Runs the fused stage with the grids that were kept, or larger ones.
+    fn draw(&mut self, image: (u32, u32), rate: u32, buffers: &[&OclBuffer]) -> Result<(), OclError> {
+        let (device, limit) = ((&self.context, &self.queue), (self.info.max_allocation, &self.allocated));
+        let grids = chunk::grids(self.grids.take(), device, limit, rate)?;
+        self.draw_chunks(image, buffers, &grids)?;
+        self.grids = Some(grids);
+        Ok(())
+    }
+
+    fn draw_chunks(
+        &self,
+        (width, height): (u32, u32),
+        buffers: &[&OclBuffer],
+        grids: &OclBuffer,
+    ) -> Result<(), OclError> {
+        let &[frame, objects, patches, control, draws, samples, colours] = buffers else {
+            return Err(OclError::Bindings { stage: Stage::Draw.name() });
+        };
+        let tiles = Grid::of_groups(width.div_ceil(TILE).into(), height.div_ceil(TILE).into());
+        // How many chunks there are only the device knows; the rest does nothing.
+        for chunk in 0..draws.entries().div_ceil(chunk::DRAWS) {
+            let blocks = Grid { number: Some(chunk as u32), ..Grid::of_groups(chunk::BLOCKS, 1) };
+            self.enqueue(Which::ArrangeDraw, &[control, draws, grids], blocks)?;
+            let diced = [frame, objects, patches, draws, grids];
+            self.enqueue(Which::Draw, &diced, Grid::of_groups(chunk::DRAWS, 1))?;
+            for kind in [Kind::Near, Kind::General] {
+                self.enqueue(Which::Tiles(kind), &[frame, draws, grids, samples, colours], tiles)?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -145,38 +181,38 @@ fn check_size(info: &DeviceInfo) -> Result<(), OclError> {
     Ok(())
 }
 
-/// Work-groups of a stage, and the count that its kernel is told.
+/// Work-groups of a kernel, and the number that it is told.
+#[derive(Clone, Copy)]
 struct Grid {
     groups: [usize; 2],
-    count: Option<u32>,
+    number: Option<u32>,
 }
 
 impl Grid {
     /// The work-groups a stage needs for its items, or `None` if they do not go together.
     fn of(stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Option<Self> {
-        let one = Self { groups: [1, 1], count: None };
         match (stage, items) {
             (Stage::Seed, Items::Count(count)) => Self::counted(count, &buffers[1..2]),
             (Stage::KnownAnswers, Items::Count(count)) => Self::counted(count, &buffers[1..3]),
-            (Stage::Take | Stage::Flush, _) | (Stage::Scan, Items::Taken) => Some(one),
+            (Stage::Take | Stage::Flush, _) | (Stage::Scan, Items::Taken) => Some(Self::of_groups(1, 1)),
             // How many are taken only the device knows; the rest of the batch does nothing.
-            (Stage::Bound, Items::Taken) => Some(Self::lines(buffers[5].entries(), None)),
-            (Stage::Split, Items::Taken) => Some(Self::lines(buffers[1].entries(), None)),
-            (Stage::Draw, Items::Image { width, height, .. }) => {
-                let tiles = |pixels: u32| (pixels as usize).div_ceil(TILE);
-                Some(Self { groups: [tiles(width), tiles(height)], count: None })
-            }
+            (Stage::Bound, Items::Taken) => Some(Self::of_items(buffers[5].entries())),
+            (Stage::Split, Items::Taken) => Some(Self::of_items(buffers[1].entries())),
             _ => None,
         }
     }
 
     fn counted(count: u32, buffers: &[&OclBuffer]) -> Option<Self> {
         let fits = buffers.iter().all(|buffer| u64::from(count) <= buffer.entries());
-        fits.then(|| Self::lines(u64::from(count), Some(count)))
+        fits.then(|| Self { number: Some(count), ..Self::of_items(u64::from(count)) })
     }
 
-    fn lines(items: u64, count: Option<u32>) -> Self {
-        Self { groups: [(items as usize).div_ceil(GROUP), 1], count }
+    fn of_items(items: u64) -> Self {
+        Self::of_groups(items.div_ceil(GROUP as u64), 1)
+    }
+
+    fn of_groups(columns: u64, rows: u64) -> Self {
+        Self { groups: [columns as usize, rows as usize], number: None }
     }
 }
 
@@ -216,7 +252,12 @@ impl Device for OclDevice {
 
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Result<(), OclError> {
         check_bindings(stage, buffers)?;
-        let grid = Grid::of(stage, items, buffers).ok_or(OclError::Bindings { stage: stage.name() })?;
-        self.enqueue(stage, grid, buffers)
+        if let (Stage::Draw, Items::Image { width, height, rate }) = (stage, items) {
+            self.draw((width, height), rate, buffers)?;
+        } else {
+            let grid = Grid::of(stage, items, buffers).ok_or(OclError::Bindings { stage: stage.name() })?;
+            self.enqueue(Which::Stage(stage), buffers, grid)?;
+        }
+        self.queue.flush().map_err(OclError::driver(stage.name()))
     }
 }

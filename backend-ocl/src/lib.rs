@@ -1,10 +1,11 @@
 //! micropoly's stages on OpenCL devices: kernels that mirror `micropoly-core` function by function.
 //!
-//! `src/kernel` has a file for each of core's. Nothing in them rounds but the functions of `num.cl`, without
+//! `src/kernel` has a file for each of core's, and for the kernels into which the fused stage is cut. Nothing in them rounds but the functions of `num.cl`, without
 //! fusing ([`OpenOptions::barrier`] enforces that whatever the compiler is told), so the bits are core's.
 //! The OpenCL library is loaded at run time: without one everything ends in [`OclError::NoDriver`].
 
 mod buffer;
+mod chunk;
 mod device;
 mod error;
 mod list;
@@ -14,4 +15,4 @@ pub use buffer::OclBuffer;
 pub use device::{Edit, OclDevice, OpenOptions};
 pub use error::OclError;
 pub use list::{DeviceInfo, devices};
-pub use program::FILES;
+pub use program::{Argument, FILES, Kind, Which};

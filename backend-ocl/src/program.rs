@@ -1,6 +1,7 @@
 //! The kernels' sources, put together and built.
 
-use micropoly_core::stage::Stage;
+use micropoly_core::abi::{Colour, Control, Draw, Frame, Layout, Object, Patch, Sample, Shared};
+use micropoly_core::stage::{Access, Binding, Stage};
 use opencl3::context::Context;
 use opencl3::kernel::Kernel;
 use opencl3::program::Program;
@@ -8,7 +9,7 @@ use opencl3::program::Program;
 use crate::device::OpenOptions;
 use crate::error::OclError;
 
-/// Work-items a work-group, in every stage.
+/// Work-items a work-group, in every kernel.
 pub(crate) const GROUP: usize = 64;
 
 macro_rules! files {
@@ -19,12 +20,124 @@ macro_rules! files {
 }
 
 files! {
-    "gen.cl" "num.cl" "bezier.cl" "surface.cl" "net.cl" "project.cl" "bound.cl" "dice.cl" "seam.cl"
-    "shade.cl" "triangle.cl" "clip.cl" "sample.cl" "draw.cl" "seed.cl" "take.cl" "scan.cl" "split.cl"
-    "known_answers.cl"
+    "gen.cl" "num.cl" "bezier.cl" "surface.cl" "net.cl" "project.cl" "bound.cl" "grids.cl" "dice.cl"
+    "seam.cl" "shade.cl" "triangle.cl" "clip.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl"
+    "draw.cl" "tiles.cl" "seed.cl" "take.cl" "scan.cl" "split.cl" "known_answers.cl"
 }
 
-/// Builds all kernels, one a stage in the order of [`Stage::ALL`].
+/// The kernels: one a stage, and those into which the fused stage is cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// A stage other than the fused one.
+    Stage(Stage),
+    /// The next chunk of draws.
+    ArrangeDraw,
+    /// Dices and shades a chunk.
+    Draw,
+    /// Samples a chunk tile by tile.
+    Tiles(Kind),
+}
+
+/// A kind of grids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Small and whole: 32-bit integers do, nothing is clipped.
+    Near,
+    /// Any other.
+    General,
+}
+
+/// What a kernel takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// A buffer: its name, the layout of its entries, and what the kernel does with it.
+    Buffer(&'static str, Layout, Access),
+    /// A number: its name.
+    Number(&'static str),
+}
+
+const fn read<T: Shared>(name: &'static str) -> Argument {
+    Argument::Buffer(name, T::LAYOUT, Access::Read)
+}
+
+const fn write<T: Shared>(name: &'static str) -> Argument {
+    Argument::Buffer(name, T::LAYOUT, Access::Write)
+}
+
+impl Which {
+    /// All kernels.
+    pub const ALL: [Self; 11] = [
+        Self::Stage(Stage::Seed),
+        Self::Stage(Stage::Take),
+        Self::Stage(Stage::Bound),
+        Self::Stage(Stage::Scan),
+        Self::Stage(Stage::Split),
+        Self::Stage(Stage::Flush),
+        Self::Stage(Stage::KnownAnswers),
+        Self::ArrangeDraw,
+        Self::Draw,
+        Self::Tiles(Kind::Near),
+        Self::Tiles(Kind::General),
+    ];
+
+    /// Its place in [`Which::ALL`].
+    pub(crate) fn index(self) -> usize {
+        Self::ALL.iter().position(|which| *which == self).expect("every kernel is in the list")
+    }
+
+    /// Its name in the source, and in messages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stage(Stage::Seed) => "stage_seed",
+            Self::Stage(Stage::Take) => "stage_take",
+            Self::Stage(Stage::Bound) => "stage_bound",
+            Self::Stage(Stage::Scan) => "stage_scan",
+            Self::Stage(Stage::Split) => "stage_split",
+            Self::Stage(Stage::Flush) => "stage_flush",
+            Self::Stage(Stage::KnownAnswers) => "stage_known_answers",
+            Self::ArrangeDraw => "arrange_draw",
+            Self::Stage(Stage::Draw) | Self::Draw => "stage_draw",
+            Self::Tiles(Kind::Near) => "tiles_near",
+            Self::Tiles(Kind::General) => "tiles_general",
+        }
+    }
+
+    /// What it takes, in order: buffers, then numbers.
+    #[must_use]
+    pub fn arguments(self) -> Vec<Argument> {
+        match self {
+            Self::Stage(stage) => {
+                let buffer = |b: &Binding| Argument::Buffer(b.name, b.layout, b.access);
+                let counted = matches!(stage, Stage::Seed | Stage::KnownAnswers);
+                let count = counted.then_some(Argument::Number("count"));
+                stage.bindings().iter().map(buffer).chain(count).collect()
+            }
+            Self::ArrangeDraw => vec![
+                read::<Control>("control"),
+                read::<Draw>("draws"),
+                write::<u32>("grids"),
+                Argument::Number("chunk"),
+            ],
+            Self::Draw => vec![
+                read::<Frame>("frame"),
+                read::<Object>("objects"),
+                read::<Patch>("patches"),
+                read::<Draw>("draws"),
+                write::<u32>("grids"),
+            ],
+            Self::Tiles(_) => vec![
+                read::<Frame>("frame"),
+                read::<Draw>("draws"),
+                read::<u32>("grids"),
+                write::<Sample>("samples"),
+                write::<Colour>("colours"),
+            ],
+        }
+    }
+}
+
+/// Builds all kernels, in the order of [`Which::ALL`].
 pub(crate) fn build(
     context: &Context,
     device: &str,
@@ -33,9 +146,9 @@ pub(crate) fn build(
     let program =
         Program::create_and_build_from_source(context, &source(options), &compiler_options(options))
             .map_err(|log| OclError::Build { device: device.to_owned(), log })?;
-    Stage::ALL
+    Which::ALL
         .iter()
-        .map(|stage| Kernel::create(&program, &format!("stage_{}", stage.name())))
+        .map(|which| Kernel::create(&program, which.name()))
         .collect::<Result<_, _>>()
         .map_err(OclError::driver("looking up the kernels"))
 }

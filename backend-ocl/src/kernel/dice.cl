@@ -1,31 +1,33 @@
 // Mirrors core/src/kernel/dice.rs: a drawn surface becomes a grid of vertices, each a pure function of patch
 // and dyadic parameter. A work-group dices one grid; its work-items share out curves, then vertices.
 #define SIDE (MAX_RATE + 1u)
-#define VERTICES (SIDE * SIDE)
 
-// How one border of a grid is closed; the ends of `chord` count only where `has_chord` is not 0.
+// How one border of a grid is closed; the ends of `chord`, as u and v, count only where `has_chord` is not 0.
 typedef struct {
     uint longest;
     uint has_chord;
-    float3 chord[2];
+    uint2 chord[2];
 } Seam;
 
-// Vertices of a diced surface: row r, column c at index r · stride + c.
+// What all vertices of a grid share, and what is found out about them all.
 typedef struct {
-    Net net;
-    uint stride;
-    // Does a micropolygon face the eye?
-    uint facing;
-    // Sides of the box around the control points.
-    float sides[3];
-    // The curves v = constant of all rows: control points and derivatives across, by row and coordinate.
-    float point[SIDE][3][4];
-    float across[SIDE][3][4];
-    int x[VERTICES];
-    int y[VERTICES];
-    float w[VERTICES];
-    float colour[3][VERTICES];
+    // Weights of each column: four of the position, three of the derivative.
+    float4 column_cubic[SIDE];
+    float3 column_slope[SIDE];
+    // Control points and derivatives across of each row's iso-curve: coordinate k of row r at 3 r + k.
+    float4 row_point[3u * SIDE];
+    float4 row_across[3u * SIDE];
+    // Eye-space control net: coordinate k of control point l at 16 k + l.
+    float net[48];
+    // Tangents no longer than this have vanished.
+    float flat_length;
     Seam seams[4];
+    // The box around all vertices and ends of chords.
+    Extents extents;
+    // Not 0 if a vertex or an end must be clipped.
+    uint must_clip;
+    // Not 0 if a micropolygon may face the eye.
+    uint faces_eye;
 } Grid;
 
 // The curve v = constant of a patch: control points and derivatives across, a coordinate each.
@@ -34,34 +36,38 @@ typedef struct {
     float4 across[3];
 } IsoCurve;
 
-static __local const float *coordinate(__local const Net *net, uint k) {
-    return k == 0u ? net->x : k == 1u ? net->y : net->z;
+// Coordinate `k` of the control points.
+static __local const float *coordinate(__local const float *net, uint k) {
+    return net + 16u * k;
 }
 
-// Control point `i` of the curve in one coordinate, by the weights at its v.
-static float curve_point(uint zero, __local const float *p, float4 cubic_v) {
-    return blend4(zero, cubic_v, (float4)(p[0], p[1], p[2], p[3]));
-}
-
-static float curve_across(uint zero, __local const float *p, float3 slope_v) {
-    return blend3(zero, slope_v, (float3)(sub(p[1], p[0]), sub(p[2], p[1]), sub(p[3], p[2])));
-}
-
+// Differences of neighbouring control points.
 static float3 along(uint zero, float4 point) {
     return (float3)(sub(point.y, point.x), sub(point.z, point.y), sub(point.w, point.z));
 }
 
-static IsoCurve iso_curve(uint zero, __local const Net *net, uint v) {
+// Control points of the curve v = constant, one coordinate.
+static float4 curve_point(uint zero, __local const float *c, float4 weights) {
+    return (float4)(blend4(zero, weights, vload4(0, c)), blend4(zero, weights, vload4(1, c)),
+                    blend4(zero, weights, vload4(2, c)), blend4(zero, weights, vload4(3, c)));
+}
+
+// Derivatives across that curve at its control points, one coordinate.
+static float4 curve_across(uint zero, __local const float *c, float3 weights) {
+    return (float4)(blend3(zero, weights, along(zero, vload4(0, c))),
+                    blend3(zero, weights, along(zero, vload4(1, c))),
+                    blend3(zero, weights, along(zero, vload4(2, c))),
+                    blend3(zero, weights, along(zero, vload4(3, c))));
+}
+
+static IsoCurve iso_curve(uint zero, __local const float *net, uint v) {
     const float t = param(zero, v);
     const float4 cubic_v = cubic(zero, t);
     const float3 slope_v = cubic_slope(zero, t);
     IsoCurve curve;
     for (uint k = 0u; k < 3u; k++) {
-        __local const float *c = coordinate(net, k);
-        curve.point[k] = (float4)(curve_point(zero, c, cubic_v), curve_point(zero, c + 4, cubic_v),
-                                  curve_point(zero, c + 8, cubic_v), curve_point(zero, c + 12, cubic_v));
-        curve.across[k] = (float4)(curve_across(zero, c, slope_v), curve_across(zero, c + 4, slope_v),
-                                   curve_across(zero, c + 8, slope_v), curve_across(zero, c + 12, slope_v));
+        curve.point[k] = curve_point(zero, coordinate(net, k), cubic_v);
+        curve.across[k] = curve_across(zero, coordinate(net, k), slope_v);
     }
     return curve;
 }
@@ -82,13 +88,15 @@ static float3 blend_across(uint zero, const IsoCurve *curve, float4 weights) {
                     blend4(zero, weights, curve->across[2]));
 }
 
-static float3 position_at(uint zero, __local const Net *net, uint u, uint v) {
-    const IsoCurve curve = iso_curve(zero, net, v);
-    return blend_point(zero, &curve, cubic(zero, param(zero, u)));
+static float3 position_at(uint zero, __local const float *net, uint u, uint v) {
+    const float4 row = cubic(zero, param(zero, v)), weights = cubic(zero, param(zero, u));
+    return (float3)(blend4(zero, weights, curve_point(zero, coordinate(net, 0u), row)),
+                    blend4(zero, weights, curve_point(zero, coordinate(net, 1u), row)),
+                    blend4(zero, weights, curve_point(zero, coordinate(net, 2u), row)));
 }
 
 // Side `k` of the box around the control points.
-static float side(uint zero, __local const Net *net, uint k) {
+static float side(uint zero, __local const float *net, uint k) {
     __local const float *c = coordinate(net, k);
     float own[16];
     for (uint l = 0u; l < 16u; l++) {
@@ -110,11 +118,11 @@ static uint inward(uint t) {
     return t - t / 64u + PARAM_ONE / 128u;
 }
 
-static float3 net_chord(uint zero, __local const Net *net, uint a, uint b) {
-    return (float3)(sub(net->x[b], net->x[a]), sub(net->y[b], net->y[a]), sub(net->z[b], net->z[a]));
+static float3 net_chord(uint zero, __local const float *net, uint a, uint b) {
+    return (float3)(sub(net[b], net[a]), sub(net[16u + b], net[16u + a]), sub(net[32u + b], net[32u + a]));
 }
 
-static float3 normal_nearby(uint zero, __local const Net *net, uint u, uint v, float flat) {
+static float3 normal_nearby(uint zero, __local const float *net, uint u, uint v, float flat) {
     const IsoCurve curve = iso_curve(zero, net, inward(v));
     const float t = param(zero, inward(u));
     const float3 du = blend_along(zero, &curve, cubic_slope(zero, t));
@@ -128,65 +136,49 @@ static float3 normal_nearby(uint zero, __local const Net *net, uint u, uint v, f
     return largest3(diagonal) > 0.5f ? diagonal : (float3)(0.0f, 0.0f, 1.0f);
 }
 
-// Moves the patch to eye space, a coordinate a work-item.
-static void dice_net(uint zero, __global const Patch *patch, __global const Object *object,
-                     __local Grid *grid, uint lane) {
-    if (lane < 48u) {
-        const uint k = lane / 16u, l = lane % 16u;
-        const float c = transformed(zero, patch, object->to_eye + 4u * k, l);
-        __local float *all = k == 0u ? grid->net.x : k == 1u ? grid->net.y : grid->net.z;
-        all[l] = c;
-    }
+// Largest side of the box around the control points.
+static float size(uint zero, __local const float *net) {
+    return max(max(side(zero, net, 0u), side(zero, net, 1u)), side(zero, net, 2u));
 }
 
-// Control points of the curves of all rows, and what of the net is needed but once.
-static void dice_curves(__constant Frame *frame, Surface surface, __local Grid *grid, uint lane) {
+// The curve in row `row`, one coordinate.
+static void prepare_row(__constant Frame *frame, Surface surface, __local Grid *grid, uint task) {
     const uint zero = frame->zero;
-    const uint step = v_size(surface) / frame->rate;
-    for (uint place = lane; place < 12u * (frame->rate + 1u); place += GROUP) {
-        const uint row = place / 12u, k = place % 12u / 4u, i = place % 4u;
-        const float t = param(zero, surface.v + row * step);
-        __local const float *p = coordinate(&grid->net, k) + 4u * i;
-        grid->point[row][k][i] = curve_point(zero, p, cubic(zero, t));
-        grid->across[row][k][i] = curve_across(zero, p, cubic_slope(zero, t));
-    }
-    if (lane < 3u) {
-        grid->sides[lane] = side(zero, &grid->net, lane);
-    }
-    if (lane == 0u) {
-        grid->stride = frame->rate + 1u;
-        grid->facing = 0u;
-    }
+    const uint row = task / 3u;
+    const float t = param(zero, surface.v + row * (v_size(surface) >> rate_bits(frame)));
+    __local const float *c = coordinate(grid->net, task % 3u);
+    grid->row_point[task] = curve_point(zero, c, cubic(zero, t));
+    grid->row_across[task] = curve_across(zero, c, cubic_slope(zero, t));
+}
+
+static void prepare_column(__constant Frame *frame, Surface surface, __local Grid *grid, uint column) {
+    const uint zero = frame->zero;
+    const float t = param(zero, surface.u + column * (u_size(surface) >> rate_bits(frame)));
+    grid->column_cubic[column] = cubic(zero, t);
+    grid->column_slope[column] = cubic_slope(zero, t);
 }
 
 static IsoCurve grid_curve(__local const Grid *grid, uint row) {
     IsoCurve curve;
     for (uint k = 0u; k < 3u; k++) {
-        curve.point[k] = vload4(0, grid->point[row][k]);
-        curve.across[k] = vload4(0, grid->across[row][k]);
+        curve.point[k] = grid->row_point[3u * row + k];
+        curve.across[k] = grid->row_across[3u * row + k];
     }
     return curve;
 }
 
-// Position and unit normal of one vertex; its snapped place goes into the grid.
-static void dice_vertex(__constant Frame *frame, Surface surface, __local Grid *grid, uint at,
-                        float3 *position, float3 *normal) {
+// Position and unit normal of one vertex.
+static void dice(__constant Frame *frame, Surface surface, __local const Grid *grid, uint row, uint column,
+                 float3 *position, float3 *normal) {
     const uint zero = frame->zero;
-    const float flat = mul(max(max(grid->sides[0], grid->sides[1]), grid->sides[2]), FLAT);
-    const uint row = at / grid->stride, column = at % grid->stride;
-    const uint u = surface.u + column * (u_size(surface) / frame->rate);
-    const uint v = surface.v + row * (v_size(surface) / frame->rate);
     const IsoCurve curve = grid_curve(grid, row);
-    const float t = param(zero, u);
-    const float4 weights = cubic(zero, t);
+    const float4 weights = grid->column_cubic[column];
     *position = blend_point(zero, &curve, weights);
-    const float3 du = blend_along(zero, &curve, cubic_slope(zero, t));
-    *normal = unit_normal(zero, du, blend_across(zero, &curve, weights), flat);
+    const float3 du = blend_along(zero, &curve, grid->column_slope[column]);
+    *normal = unit_normal(zero, du, blend_across(zero, &curve, weights), grid->flat_length);
     if (largest3(*normal) < 0.5f) {
-        *normal = normal_nearby(zero, &grid->net, u, v, flat);
+        const uint u = surface.u + column * (u_size(surface) >> rate_bits(frame));
+        const uint v = surface.v + row * (v_size(surface) >> rate_bits(frame));
+        *normal = normal_nearby(zero, grid->net, u, v, grid->flat_length);
     }
-    const Vertex vertex = project(frame, *position);
-    grid->x[at] = vertex.x;
-    grid->y[at] = vertex.y;
-    grid->w[at] = vertex.w;
 }

@@ -1,117 +1,139 @@
-// Mirrors core's fused stage Draw: dice.rs, shade.rs and sample.rs of core/src/kernel, a grid at a time.
+// Mirrors the first half of core's fused stage, dice and shade: one work-group a draw of the chunk.
 //
-// A work-group owns a tile of the image. It goes through all draws, 64 at a time, and dices, shades and
-// samples those that can touch its tile. Barriers are reached by all work-items alike.
+// Barriers are reached by all work-items alike.
 
-static bool touches(Draw draw, int4 box) {
-    const int left = draw.columns & 0xffffu, right = draw.columns >> 16;
-    const int top = draw.rows & 0xffffu, bottom = draw.rows >> 16;
-    return left < box.y && right > box.x && top < box.w && bottom > box.z;
+// A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `triangle.cl`.
+#define NARROW 16000
+
+static void clear_measures(__local Grid *grid) {
+    grid->extents = nothing();
+    grid->must_clip = 0u;
+    grid->faces_eye = 0u;
 }
 
-// The tile of this work-group, cut off at the image's border.
-static int4 tile_box(__constant Frame *frame) {
-    const int left = get_group_id(0) * TILE, top = get_group_id(1) * TILE;
-    return (int4)(left, lesser(left + (int)TILE, frame->width), top, lesser(top + (int)TILE, frame->height));
-}
-
-static void clear(__local Tile *tile, uint lane) {
-    for (uint pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
-        tile->depth[pixel] = 0u;
-        tile->cell[pixel] = NO_CELL;
+static void measure(__local Grid *grid, Vertex vertex) {
+    include(&grid->extents, vertex.x, vertex.y);
+    if (vertex.w == 0.0f) {
+        grid->must_clip = 1u; // whoever writes, it is the same
     }
 }
 
-// Fills the grid: net, then curves and seams, then vertices and their colours.
-static void dice_and_shade(__constant Frame *frame, __global const Object *object,
-                           __global const Patch *patch, Surface surface, __local Grid *grid, uint lane) {
-    dice_net(frame->zero, patch, object, grid, lane);
+// What all vertices share: the net, then the rows' curves, the columns' weights and the seams.
+static void prepare(__constant Frame *frame, __global const Object *object, __global const Patch *patch,
+                    Surface surface, __local Grid *grid, uint lane) {
+    const uint zero = frame->zero;
+    if (lane < 48u) {
+        grid->net[lane] = transformed(zero, patch, object->to_eye + lane / 16u * 4u, lane % 16u);
+    }
+    if (lane == GROUP - 1u) {
+        clear_measures(grid);
+    }
+    for (uint column = lane; column <= frame->rate; column += GROUP) {
+        prepare_column(frame, surface, grid, column);
+    }
     barrier(CLK_LOCAL_MEM_FENCE);
-    dice_curves(frame, surface, grid, lane);
+    for (uint task = lane; task < 3u * (frame->rate + 1u); task += GROUP) {
+        prepare_row(frame, surface, grid, task);
+    }
     if (lane >= GROUP - 4u) {
-        grid->seams[lane + 4u - GROUP] = seam_of(frame, &grid->net, surface, lane + 4u - GROUP);
+        const uint border = lane + 4u - GROUP;
+        grid->seams[border] = seam_of(frame, grid->net, surface, border);
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    const uint vertices = grid->stride * grid->stride;
-    for (uint at = lane; at < vertices; at += GROUP) {
+    if (lane == GROUP - 5u) {
+        grid->flat_length = mul(size(zero, grid->net), FLAT);
+    }
+}
+
+// The ends of the chords beyond the borders; where there is none, nothing reads them.
+static void put_ends(__constant Frame *frame, __local Grid *grid, __global uint *grids, uint base, uint lane) {
+    if (lane < ENDS && grid->seams[lane / 2u].has_chord != 0u) {
+        const uint2 place = grid->seams[lane / 2u].chord[lane % 2u];
+        const Vertex end = project(frame, position_at(frame->zero, grid->net, place.x, place.y));
+        put_screen(frame, grids, base, vertices(frame) + lane, end);
+        measure(grid, end);
+    }
+}
+
+// Vertices and their colours: rows of work-items go through rows of vertices.
+static void dice_and_shade(__constant Frame *frame, __global const Object *object, Surface surface,
+                           __local Grid *grid, __global uint *grids, uint base, uint lane) {
+    const uint stride = frame->rate + 1u;
+    for (uint at = lane; at < vertices(frame); at += GROUP) {
         float3 position, normal;
-        dice_vertex(frame, surface, grid, at, &position, &normal);
-        const float3 colour = shade(frame, object, position, normal);
-        grid->colour[0][at] = colour.x;
-        grid->colour[1][at] = colour.y;
-        grid->colour[2][at] = colour.z;
+        dice(frame, surface, grid, at / stride, at % stride, &position, &normal);
+        const Vertex vertex = project(frame, position);
+        measure(grid, vertex);
+        put_screen(frame, grids, base, at, vertex);
+        put_space(frame, grids, base, at, 0u, position);
+        put_space(frame, grids, base, at, 3u, shade(frame, object, position, normal));
     }
-    barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-// Is the grid to be drawn? All work-items get the same answer.
-static bool is_shown(__constant Frame *frame, __local Grid *grid, uint lane) {
-    const uint rate = frame->rate;
-    if (!(frame->flags & FLAG_CULL_BACKFACES)) {
-        return true;
-    }
-    for (uint item = lane; item < rate * rate; item += GROUP) {
-        if (faces_the_eye(grid, (Place)(item % rate, item / rate))) {
-            grid->facing = 1u; // whoever writes, it is the same
-        }
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    return grid->facing != 0u;
+// May the micropolygon be seen from the front? See `faces_away` in core.
+static bool may_face_eye(__constant Frame *frame, __global const uint *grids, uint base, uint row, uint column) {
+    const uint at = row * (frame->rate + 1u) + column, below = at + frame->rate + 1u;
+    const Vertex a = vertex_at(frame, grids, base, at), b = vertex_at(frame, grids, base, at + 1u);
+    const Vertex c = vertex_at(frame, grids, base, below + 1u), d = vertex_at(frame, grids, base, below);
+    const bool whole = a.w > 0.0f && b.w > 0.0f && c.w > 0.0f && d.w > 0.0f;
+    return !(whole && signed_area(a, b, c) >= 0 && signed_area(a, c, d) >= 0);
 }
 
-// Shows what the tile's pixels have found, where it is nearer than what they have, and forgets it.
-static void keep_nearest(Sampler *s, __global Sample *samples, __global Colour *colours, uint lane) {
-    for (uint pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
-        const uint cell = s->tile->cell[pixel];
-        if (cell != NO_CELL) {
-            const uint column = s->box.x + pixel % TILE, row = s->box.z + pixel / TILE;
-            const ulong at = (ulong)row * s->frame->width + column;
-            const Place place = place_of(cell);
-            const Sample found = sample_of(s->frame, s->surface, place, s->tile->depth[pixel]);
-            if (nearer(found, samples[at])) {
-                samples[at] = found;
-                colours[at] = cell_colour(s->frame->zero, s->grid, place);
-            }
-            s->tile->depth[pixel] = 0u;
-            s->tile->cell[pixel] = NO_CELL;
+// Finds out whether a micropolygon may face the eye, if that matters.
+static void seek_faces(__constant Frame *frame, __local Grid *grid, __global const uint *grids, uint base,
+                       uint lane) {
+    const uint count = frame->flags & FLAG_CULL_BACKFACES ? frame->rate * frame->rate : 0u;
+    for (uint index = lane; index < count; index += GROUP) {
+        if (may_face_eye(frame, grids, base, index >> rate_bits(frame), index & (frame->rate - 1u))) {
+            grid->faces_eye = 1u; // whoever writes, it is the same
         }
+    }
+}
+
+static uint kind_of(__constant Frame *frame, __local const Grid *grid) {
+    if ((frame->flags & FLAG_CULL_BACKFACES) && grid->faces_eye == 0u) {
+        return KIND_HIDDEN;
+    }
+    const Extents extents = grid->extents;
+    const bool narrow =
+        extents.high_x - extents.low_x <= NARROW && extents.high_y - extents.low_y <= NARROW;
+    return narrow && grid->must_clip == 0u ? KIND_NEAR : KIND_GENERAL;
+}
+
+static void put_flags(__constant Frame *frame, __local const Grid *grid, __global uint *grids, uint base) {
+    const uint found = kind_of(frame, grid);
+    uint flags = found;
+    for (uint border = 0u; border < 4u; border++) {
+        const uint height = 31u - clz(grid->seams[border].longest);
+        const uint longest = height < SEAM_LONGEST ? height : SEAM_LONGEST;
+        const uint bits = longest | (grid->seams[border].has_chord != 0u ? SEAM_CHORD : 0u);
+        flags |= bits << (SEAM_SHIFT + SEAM_BITS * border);
+    }
+    grids[base] = flags;
+    if (found != KIND_HIDDEN) {
+        grids[HEAD_KINDS + found - 1u] = 1u; // whoever writes, it is the same
     }
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void stage_draw(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
-                __global const Control *control, __global const Draw *draws, __global Sample *samples,
-                __global Colour *colours) {
+                __global const Draw *draws, __global uint *grids) {
     __local Grid grid;
-    __local Tile tile;
-    const uint lane = get_local_id(0);
-    const uint count = control->waiting + control->fresh;
-    const int4 box = tile_box(frame);
-    clear(&tile, lane);
-    for (uint first = 0u; first < count; first += GROUP) {
-        if (lane == 0u) {
-            tile.listed = 0u;
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
-        if (first + lane < count && touches(draws[first + lane], box)) {
-            tile.list[atomic_inc(&tile.listed)] = first + lane;
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
-        for (uint entry = 0u; entry < tile.listed; entry++) {
-            const Surface surface = surface_of(draws[tile.list[entry]]);
-            __global const Patch *patch = patches + surface.patch_id;
-            dice_and_shade(frame, objects + patch->object, patch, surface, &grid, lane);
-            if (is_shown(frame, &grid, lane)) {
-                Sampler s = {frame, &grid, &tile, surface, box, false, false};
-                uint hits = 0xffffffffu;
-                for (uint time = 0u; time < 2u; time++) {
-                    s.second_time = time == 1u;
-                    hits = sample_share(&s, lane, hits);
-                    barrier(CLK_LOCAL_MEM_FENCE);
-                }
-                keep_nearest(&s, samples, colours, lane);
-            }
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
+    const uint lane = get_local_id(0), index = get_group_id(0);
+    if (index >= grids[HEAD_COUNT]) {
+        return;
+    }
+    const Surface surface = surface_of(draws[grids[HEAD_START] + index]);
+    __global const Patch *patch = patches + surface.patch_id;
+    __global const Object *object = objects + patch->object;
+    const uint base = grid_base(frame, index);
+    prepare(frame, object, patch, surface, &grid, lane);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    dice_and_shade(frame, object, surface, &grid, grids, base, lane);
+    put_ends(frame, &grid, grids, base, lane);
+    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+    seek_faces(frame, &grid, grids, base, lane);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (lane == 0u) {
+        put_flags(frame, &grid, grids, base);
     }
 }

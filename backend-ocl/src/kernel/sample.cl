@@ -1,36 +1,50 @@
 // Mirrors core/src/kernel/sample.rs: micropolygons become samples, one a pixel at its centre; the nearest wins.
 //
-// A grid is sampled twice: the first time each pixel of the tile learns its largest depth, the second time
-// the smallest place among the micropolygons that have it. Nothing depends on the order of work-items.
-#define TILE 16u
+// What a work-group finds in its tile of the image is gathered in local memory: the nearest depth of each
+// pixel, then the smallest micropolygon that has it. Seldom are there more hits than there is room for;
+// then all are looked for a second time. Nothing depends on the order of work-items.
 #define TILE_PIXELS (TILE * TILE)
-#define NO_CELL 0xffffffffu
-// Places of slivers a border: one for the chord beyond its end, the rest by span and start.
-#define SLIVERS MAX_RATE
+// Most draws that are sampled together, and most hits that are kept.
+#define LISTED 128u
+#define HITS 1024u
+// A key is the rank of a draw among those sampled and, in the low bits, one of its micropolygons:
+// column * 32 + row, which is ordered as (u, v) is.
+#define CELL_BITS 10u
+#define CELL_SHIFT 5u
+#define CELL_MASK 31u
+#define PIXEL_SHIFT 24u
+#define NO_KEY 0xffffffffu
 
 // What a work-group knows of its tile.
 typedef struct {
+    // Bits of the nearest 1 / distance at each pixel; 0 = nothing.
     uint depth[TILE_PIXELS];
-    uint cell[TILE_PIXELS];
-    uint list[GROUP];
+    // The key that has it; NO_KEY if it was there before.
+    uint key[TILE_PIXELS];
+    uint hits;
+    uint hit_depth[HITS];
+    uint hit_place[HITS];
+    // All draws that can touch the tile, as numbers within the chunk.
     uint listed;
+    ushort list[CHUNK];
+    // Blocks of draws that can touch it.
+    uint blocks_listed;
+    uchar blocks[BLOCKS];
+    // Ranks of the draws that are being sampled, and the draw of each rank.
+    uchar rank[LISTED];
+    ushort order[LISTED];
 } Tile;
 
 // What is being sampled, and where to.
 typedef struct {
     __constant Frame *frame;
-    __local const Grid *grid;
+    __global const uint *grids;
     __local Tile *tile;
-    Surface surface;
     // Left, right, top and bottom of the tile, in pixels of the image.
     int4 box;
+    // Are keys looked for, rather than depths?
     bool second_time;
-    // Was a sample put?
-    bool found;
 } Sampler;
-
-// Row and column of a vertex, or of the micropolygon that starts there; in y and x.
-typedef uint2 Place;
 
 static bool nearer(Sample new_sample, Sample old) {
     if (new_sample.depth != old.depth) {
@@ -42,205 +56,136 @@ static bool nearer(Sample new_sample, Sample old) {
     return new_sample.u != old.u ? new_sample.u < old.u : new_sample.v < old.v;
 }
 
-// Number of a micropolygon: in the order of its u, then v.
+static void resolve_hit(__local Tile *tile, uint pixel, uint found, uint key) {
+    if (found == tile->depth[pixel]) {
+        atomic_min(&tile->key[pixel], key);
+    }
+}
+
+// A hit of a pixel of the tile.
+static void put(Sampler *s, int column, int row, float w, uint key) {
+    const uint pixel = (uint)(row - s->box.z) * TILE + (uint)(column - s->box.x);
+    const uint found = as_uint(w);
+    volatile __local uint *stored = &s->tile->depth[pixel];
+    if (s->second_time) {
+        resolve_hit(s->tile, pixel, found, key);
+    } else if (found >= *stored && found >= atomic_max(stored, found)) {
+        const uint place = atomic_inc(&s->tile->hits);
+        if (place < HITS) {
+            s->tile->hit_depth[place] = found;
+            s->tile->hit_place[place] = pixel << PIXEL_SHIFT | key;
+        }
+    }
+}
+
+// One item of a grid: a quad, or a sliver of a seam as a quad whose last two corners are one.
+typedef struct {
+    // Numbers of its corners; see `grids.cl`.
+    uint4 corners;
+    uint cell;
+    bool is_quad;
+    // Is there such a sliver?
+    bool exists;
+} Item;
+
+// Number of items of a grid.
+static uint items(__constant Frame *frame) {
+    return frame->rate * (frame->rate + 4u);
+}
+
+// Row and column of a vertex, or of the micropolygon that starts there; in y and x.
+typedef uint2 Place;
+
 static uint cell_of(Place place) {
-    return place.x * 2u * MAX_RATE + place.y;
+    return place.x << CELL_SHIFT | place.y;
 }
 
 static Place place_of(uint cell) {
-    return (Place)(cell / (2u * MAX_RATE), cell % (2u * MAX_RATE));
+    return (Place)(cell >> CELL_SHIFT, cell & CELL_MASK);
 }
 
-static void put(Sampler *s, int column, int row, Place place, float w) {
-    const uint pixel = (uint)(row - s->box.z) * TILE + (uint)(column - s->box.x);
-    if (!s->second_time) {
-        atomic_max(&s->tile->depth[pixel], as_uint(w));
-    } else if (s->tile->depth[pixel] == as_uint(w)) {
-        atomic_min(&s->tile->cell[pixel], cell_of(place));
-    }
-    s->found = true;
+static uint vertex_number(__constant Frame *frame, Place place) {
+    return place.y * (frame->rate + 1u) + place.x;
 }
 
-static Vertex grid_vertex(__local const Grid *grid, Place place) {
-    const uint at = place.y * grid->stride + place.x;
-    const Vertex vertex = {grid->x[at], grid->y[at], grid->w[at]};
-    return vertex;
+static Item quad_of(__constant Frame *frame, Place place) {
+    const uint a = vertex_number(frame, place), d = a + frame->rate + 1u;
+    const Item item = {(uint4)(a, a + 1u, d + 1u, d), cell_of(place), true, true};
+    return item;
 }
 
-static Sample sample_of(__constant Frame *frame, Surface surface, Place place, uint depth_bits) {
-    const Sample sample = {depth_bits, surface.patch_id, surface.u + place.x * (u_size(surface) / frame->rate),
-                           surface.v + place.y * (v_size(surface) / frame->rate)};
-    return sample;
-}
-
-// Mean colour of the four vertices of a micropolygon.
-static Colour cell_colour(uint zero, __local const Grid *grid, Place place) {
-    const uint at = place.y * grid->stride + place.x;
-    const uint below = at + grid->stride;
-    Colour out;
-    for (uint k = 0u; k < 3u; k++) {
-        __local const float *colour = grid->colour[k];
-        out.rgba[k] = mul(0.25f, add(add(colour[at], colour[below + 1u]), add(colour[at + 1u], colour[below])));
-    }
-    out.rgba[3] = 1.0f;
-    return out;
-}
-
-// The part of a box of pixels, given as columns and rows, inside the tile.
-static int4 within(int4 box, int2 columns, int2 rows) {
-    return (int4)(greater(columns.x, box.x), lesser(columns.y, box.y), greater(rows.x, box.z),
-                  lesser(rows.y, box.w));
-}
-
-static void triangle(Sampler *s, Vertex a, Vertex b, Vertex c, Place place) {
-    const int2 columns = pixels_between(lesser(lesser(a.x, b.x), c.x), greater(greater(a.x, b.x), c.x));
-    const int2 rows = pixels_between(lesser(lesser(a.y, b.y), c.y), greater(greater(a.y, b.y), c.y));
-    const int4 pixels = within(s->box, columns, rows);
-    for (int y = pixels.z; y < pixels.w; y++) {
-        for (int x = pixels.x; x < pixels.y; x++) {
-            const float w = sample_triangle(s->frame->zero, a, b, c, x, y);
-            if (w > 0.0f) {
-                put(s, x, y, place, w);
-            }
-        }
-    }
-}
-
-// 1 / distance at the centre of a pixel if one of the triangles a b c and a c d owns it; of two, the nearer.
-static float sample_quad(uint zero, const Vertex *quad, int column, int row) {
-    const Corner a = new_corner(quad[0], column, row);
-    const Corner b = new_corner(quad[1], column, row);
-    const Corner c = new_corner(quad[2], column, row);
-    const Corner d = new_corner(quad[3], column, row);
-    const long ab = edge(a, b), bc = edge(b, c), ca = edge(c, a), cd = edge(c, d), da = edge(d, a);
-    float w = 0.0f;
-    if (owns(a, b, c, bc, ca, ab)) {
-        w = depth(zero, a.w, b.w, c.w, bc, ca, ab);
-    }
-    if (owns(a, c, d, cd, da, -ca)) {
-        w = max(w, depth(zero, a.w, c.w, d.w, cd, da, -ca));
-    }
-    return w;
-}
-
-// Clips a triangle and samples what is left of it, as a fan.
-static void clipped(Sampler *s, float3 a, float3 b, float3 c, Place place) {
-    Polygon polygon;
-    clip(s->frame, a, b, c, &polygon);
-    for (uint k = 2u; k < polygon.count; k++) {
-        triangle(s, project_clipped(s->frame, polygon.corners[0]),
-                 project_clipped(s->frame, polygon.corners[k - 1u]),
-                 project_clipped(s->frame, polygon.corners[k]), place);
-    }
-}
-
-// A vertex's position in eye space: not kept, since only clipping needs it.
-static float3 point_of(const Sampler *s, Place place) {
-    const uint step_u = u_size(s->surface) / s->frame->rate, step_v = v_size(s->surface) / s->frame->rate;
-    return position_at(s->frame->zero, &s->grid->net, s->surface.u + place.x * step_u,
-                       s->surface.v + place.y * step_v);
-}
-
-static void clipped_quad(Sampler *s, Place place) {
-    const float3 a = point_of(s, place), c = point_of(s, place + (Place)(1u, 1u));
-    clipped(s, a, point_of(s, place + (Place)(1u, 0u)), c, place);
-    clipped(s, a, c, point_of(s, place + (Place)(0u, 1u)), place);
-}
-
-static void load_quad(__local const Grid *grid, Place place, Vertex *quad) {
-    quad[0] = grid_vertex(grid, place);
-    quad[1] = grid_vertex(grid, place + (Place)(1u, 0u));
-    quad[2] = grid_vertex(grid, place + (Place)(1u, 1u));
-    quad[3] = grid_vertex(grid, place + (Place)(0u, 1u));
-}
-
-static bool must_be_clipped(const Vertex *quad) {
-    return !(quad[0].w > 0.0f && quad[1].w > 0.0f && quad[2].w > 0.0f && quad[3].w > 0.0f);
-}
-
-// Samples one quad of any size as the triangles a b c and a c d.
-static void micropolygon(Sampler *s, Place place) {
-    Vertex q[4];
-    load_quad(s->grid, place, q);
-    if (must_be_clipped(q)) {
-        clipped_quad(s, place);
-        return;
-    }
-    const int2 columns = pixels_between(lesser(lesser(q[0].x, q[1].x), lesser(q[2].x, q[3].x)),
-                                        greater(greater(q[0].x, q[1].x), greater(q[2].x, q[3].x)));
-    const int2 rows = pixels_between(lesser(lesser(q[0].y, q[1].y), lesser(q[2].y, q[3].y)),
-                                     greater(greater(q[0].y, q[1].y), greater(q[2].y, q[3].y)));
-    const int4 pixels = within(s->box, columns, rows);
-    for (int y = pixels.z; y < pixels.w; y++) {
-        for (int x = pixels.x; x < pixels.y; x++) {
-            const float w = sample_quad(s->frame->zero, q, x, y);
-            if (w > 0.0f) {
-                put(s, x, y, place, w);
-            }
-        }
-    }
-}
-
-static Place border_place(uint border, uint last, uint t) {
-    const uint fixed = border & 1u ? last : 0u;
+// Step `t` of a border.
+static Place border_place(__constant Frame *frame, uint border, uint t) {
+    const uint fixed = border & 1u ? frame->rate : 0u;
     return border < 2u ? (Place)(t, fixed) : (Place)(fixed, t);
 }
 
-// A triangle before the near plane and within the guard band, drawn as a part of a micropolygon that has
-// the vertex `middle`.
-static void sliver(Sampler *s, Vertex a, Vertex b, Vertex c, Place middle) {
-    const uint last = s->frame->rate - 1u;
-    if (a.w > 0.0f && b.w > 0.0f && c.w > 0.0f) {
-        triangle(s, a, b, c, (Place)(middle.x < last ? middle.x : last, middle.y < last ? middle.y : last));
-    }
+static Item sliver(__constant Frame *frame, uint first, Place middle, uint last, bool exists) {
+    const uint most = frame->rate - 1u;
+    const Place beside = (Place)(middle.x < most ? middle.x : most, middle.y < most ? middle.y : most);
+    const Item item = {(uint4)(first, vertex_number(frame, middle), last, last), cell_of(beside), false, exists};
+    return item;
 }
 
-// Sliver 0 of a border joins the chord beyond its end; then come one of the whole border's span, two of half
-// of it, four of a quarter, down to a span of 2.
-static void seam(Sampler *s, uint border, uint number_on_border) {
-    __local const Seam *seam = &s->grid->seams[border];
-    const uint last = s->frame->rate;
+// Sliver number `task` of 4 * rate: `rate` a border. Number 0 of a border is that of the chord beyond it;
+// the others are numbered as a heap is: one over the whole border, two over its halves, and so on.
+static Item sliver_of(__constant Frame *frame, uint flags, uint task) {
+    const uint border = task >> rate_bits(frame), number_on_border = task & (frame->rate - 1u);
+    const uint seam = flags >> (SEAM_SHIFT + SEAM_BITS * border);
+    const uint longest = seam & SEAM_LONGEST;
     if (number_on_border == 0u) {
-        if (seam->has_chord != 0u) {
-            const Place middle = border_place(border, last, last);
-            sliver(s, project(s->frame, seam->chord[0]), grid_vertex(s->grid, middle),
-                   project(s->frame, seam->chord[1]), middle);
-        }
-        return;
+        const uint end = vertices(frame) + 2u * border;
+        const bool exists = longest > 0u && (seam & SEAM_CHORD) != 0u;
+        return sliver(frame, end, border_place(frame, border, frame->rate), end + 1u, exists);
     }
-    const uint halvings = 31u - clz(number_on_border);
-    const uint span = last >> halvings;
-    if (span < 2u || span > seam->longest) {
-        return;
-    }
-    const uint start = (number_on_border - (1u << halvings)) * span;
-    const Place middle = border_place(border, last, start + span / 2u);
-    sliver(s, grid_vertex(s->grid, border_place(border, last, start)), grid_vertex(s->grid, middle),
-           grid_vertex(s->grid, border_place(border, last, start + span)), middle);
+    const uint height = 31u - clz(number_on_border);
+    const uint span = frame->rate >> height;
+    const uint start = (number_on_border - (1u << height)) * span;
+    const uint first = vertex_number(frame, border_place(frame, border, start));
+    const uint last = vertex_number(frame, border_place(frame, border, start + span));
+    return sliver(frame, first, border_place(frame, border, start + span / 2u), last, span <= 1u << longest);
 }
 
-// Does this micropolygon face the eye, or can that not be said?
-static bool faces_the_eye(__local const Grid *grid, Place place) {
-    Vertex q[4];
-    load_quad(grid, place, q);
-    return must_be_clipped(q) || signed_area(q[0], q[1], q[2]) < 0 || signed_area(q[0], q[2], q[3]) < 0;
+static Item item_of(__constant Frame *frame, uint flags, uint task) {
+    const uint quads = frame->rate * frame->rate;
+    if (task < quads) {
+        return quad_of(frame, (Place)(task & (frame->rate - 1u), task >> rate_bits(frame)));
+    }
+    return sliver_of(frame, flags, task - quads);
 }
 
-// A work-item's share of a grid: every 64th micropolygon and sliver. `hits` says, a bit each, which of them
-// put a sample the first time; the second time only those are looked at. Returns the new `hits`.
-static uint sample_share(Sampler *s, uint lane, uint hits) {
-    const uint rate = s->frame->rate, cells = rate * rate, all = cells + 4u * SLIVERS;
-    uint bit = 1u, found = 0u;
-    for (uint item = lane; item < all; item += GROUP, bit *= 2u) {
-        if (hits & bit) {
-            s->found = false;
-            if (item < cells) {
-                micropolygon(s, (Place)(item % rate, item / rate));
-            } else {
-                seam(s, (item - cells) / SLIVERS, (item - cells) % SLIVERS);
-            }
-            found |= s->found ? bit : 0u;
-        }
-    }
-    return found;
+// The sample of the micropolygon `cell` at this depth.
+static Sample sample_of(__constant Frame *frame, Surface surface, uint cell, uint depth_bits) {
+    const Place place = place_of(cell);
+    const Sample sample = {depth_bits, surface.patch_id,
+                           surface.u + place.x * (u_size(surface) >> rate_bits(frame)),
+                           surface.v + place.y * (v_size(surface) >> rate_bits(frame))};
+    return sample;
+}
+
+static float mean4(uint zero, float a, float b, float c, float d) {
+    return mul(0.25f, add(add(a, c), add(b, d)));
+}
+
+// Mean colour of the four vertices of a micropolygon.
+static Colour colour_of(__constant Frame *frame, __global const uint *grids, uint base, uint cell) {
+    const uint zero = frame->zero;
+    const uint4 corners = quad_of(frame, place_of(cell)).corners;
+    const float3 a = space_at(frame, grids, base, corners.x, 3u);
+    const float3 b = space_at(frame, grids, base, corners.y, 3u);
+    const float3 c = space_at(frame, grids, base, corners.z, 3u);
+    const float3 d = space_at(frame, grids, base, corners.w, 3u);
+    const Colour colour = {{mean4(zero, a.x, b.x, c.x, d.x), mean4(zero, a.y, b.y, c.y, d.y),
+                            mean4(zero, a.z, b.z, c.z, d.z), 1.0f}};
+    return colour;
+}
+
+// The pixels inside the tile whose centres lie in the box around a quad: left, right, top and bottom.
+static int4 pixels_of_quad(int4 box, Vertex a, Vertex b, Vertex c, Vertex d) {
+    const int2 columns = pixels_between(lesser(lesser(a.x, b.x), lesser(c.x, d.x)),
+                                        greater(greater(a.x, b.x), greater(c.x, d.x)));
+    const int2 rows = pixels_between(lesser(lesser(a.y, b.y), lesser(c.y, d.y)),
+                                     greater(greater(a.y, b.y), greater(c.y, d.y)));
+    return (int4)(greater(columns.x, box.x), lesser(columns.y, box.y), greater(rows.x, box.z),
+                  lesser(rows.y, box.w));
 }

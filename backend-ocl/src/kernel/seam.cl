@@ -35,22 +35,16 @@ static uint2 longest_chord(__constant Frame *frame, const float4 *curve, uint st
     return (uint2)(longest, inside ? half_chord : 0u);
 }
 
-static Seam seam_along_u(__constant Frame *frame, __local const Net *net, uint u, uint size, uint v) {
+static Seam seam_along_u(__constant Frame *frame, __local const float *net, uint u, uint size, uint v) {
     const uint zero = frame->zero;
     const float4 weights = cubic(zero, param(zero, v));
     float4 curve[3];
     for (uint k = 0u; k < 3u; k++) {
-        __local const float *c = coordinate(net, k);
-        curve[k] = (float4)(curve_point(zero, c, weights), curve_point(zero, c + 4, weights),
-                            curve_point(zero, c + 8, weights), curve_point(zero, c + 12, weights));
+        curve[k] = curve_point(zero, coordinate(net, k), weights);
     }
     const uint2 found = longest_chord(frame, curve, u, size);
     const uint end = u + size;
-    Seam seam = {found.x, found.y, {(float3)(0.0f), (float3)(0.0f)}};
-    if (found.y > 0u) {
-        seam.chord[0] = position_at(zero, net, end - found.y, v);
-        seam.chord[1] = position_at(zero, net, end + found.y, v);
-    }
+    const Seam seam = {found.x, found.y, {(uint2)(end - found.y, v), (uint2)(end + found.y, v)}};
     return seam;
 }
 
@@ -58,7 +52,7 @@ static float4 column_of(__local const float *c, uint j) {
     return (float4)(c[j], c[4u + j], c[8u + j], c[12u + j]);
 }
 
-static Seam seam_along_v(__constant Frame *frame, __local const Net *net, uint u, uint v, uint size) {
+static Seam seam_along_v(__constant Frame *frame, __local const float *net, uint u, uint v, uint size) {
     const uint zero = frame->zero;
     const float4 weights = cubic(zero, param(zero, u));
     float4 curve[3];
@@ -69,16 +63,12 @@ static Seam seam_along_v(__constant Frame *frame, __local const Net *net, uint u
     }
     const uint2 found = longest_chord(frame, curve, v, size);
     const uint end = v + size;
-    Seam seam = {found.x, found.y, {(float3)(0.0f), (float3)(0.0f)}};
-    if (found.y > 0u) {
-        seam.chord[0] = position_at(zero, net, u, end - found.y);
-        seam.chord[1] = position_at(zero, net, u, end + found.y);
-    }
+    const Seam seam = {found.x, found.y, {(uint2)(u, end - found.y), (uint2)(u, end + found.y)}};
     return seam;
 }
 
 // The seam along one of the borders v = low, v = high, u = low and u = high.
-static Seam seam_of(__constant Frame *frame, __local const Net *net, Surface surface, uint border) {
+static Seam seam_of(__constant Frame *frame, __local const float *net, Surface surface, uint border) {
     const uint size_u = u_size(surface), size_v = v_size(surface);
     const uint high = border & 1u;
     if (border < 2u) {

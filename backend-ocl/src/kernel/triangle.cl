@@ -1,9 +1,12 @@
 // Mirrors core/src/kernel/triangle.rs: coverage by integer edge functions, depth by exact weights.
+//
+// Edge functions need 64-bit integers. Where all corners lie within 64 pixels of the sample they fit 32 bits,
+// which gives the same answers faster.
 
 // A snapped vertex as seen from a sample.
 typedef struct {
-    long x;
-    long y;
+    int x;
+    int y;
     float w;
 } Corner;
 
@@ -16,45 +19,58 @@ static Corner new_corner(Vertex vertex, int column, int row) {
     return corner;
 }
 
-static long edge(Corner a, Corner b) {
+static long wide_edge(Corner a, Corner b) {
+    return (long)a.x * b.y - (long)a.y * b.x;
+}
+
+static int edge(Corner a, Corner b) {
     return a.x * b.y - a.y * b.x;
 }
 
-static long magnitude(long x) {
-    return x < 0 ? -x : x;
+static ulong wide_magnitude(long a) {
+    return a < 0 ? -a : a;
 }
 
-// Does a sample on the right of the edge belong to it, or one on it, if it is a top or left edge?
-static bool owns_side(Corner from, Corner to, long value) {
-    const long dx = to.x - from.x, dy = to.y - from.y;
+static uint magnitude(int a) {
+    return a < 0 ? -a : a;
+}
+
+// -1, 0 or 1.
+static int wide_sign(long a) {
+    return a < 0 ? -1 : a > 0;
+}
+
+static int int_sign(int a) {
+    return a < 0 ? -1 : a > 0;
+}
+
+static bool owns_border(Corner before, Corner after, int edge_sign, int area) {
+    const int value = edge_sign * area;
+    const int dx = (after.x - before.x) * area, dy = (after.y - before.y) * area;
     return value > 0 || (value == 0 && (dy < 0 || (dy == 0 && dx > 0)));
 }
 
-static bool owns_border(Corner a, Corner b, Corner c, long ea, long eb, long ec) {
-    const long area = ea + eb + ec;
-    if (area > 0) {
-        return owns_side(b, c, ea) && owns_side(c, a, eb) && owns_side(a, b, ec);
-    }
-    return area != 0 && owns_side(c, b, -ea) && owns_side(a, c, -eb) && owns_side(b, a, -ec);
-}
-
-// Edge values are those opposite each corner.
-static bool owns(Corner a, Corner b, Corner c, long ea, long eb, long ec) {
+// `ea`, `eb` and `ec` are the signs of the values of the edges opposite the corners, `area` that of their sum.
+static bool owns(Corner a, Corner b, Corner c, int ea, int eb, int ec, int area) {
     if (ea != 0 && eb != 0 && ec != 0) {
-        return (ea > 0) == (eb > 0) && (eb > 0) == (ec > 0);
+        return ea == eb && eb == ec;
     }
-    return owns_border(a, b, c, ea, eb, ec);
+    return area != 0 && owns_border(b, c, ea, area) && owns_border(c, a, eb, area)
+        && owns_border(a, b, ec, area);
 }
 
-static float depth(uint zero, float a, float b, float c, long ea, long eb, long ec) {
-    const long area = magnitude(ea + eb + ec);
-    const uint zeros = (uint)clz(area);
-    const uint spare = zeros < 40u ? 40u - zeros : 0u;
-    const float share = recip(number((int)(area >> spare)));
-    const float weight_b = mul(number((int)(magnitude(eb) >> spare)), share);
-    const float weight_c = mul(number((int)(magnitude(ec) >> spare)), share);
+// 1 / distance from area and weights that fit 24 bits.
+static float depth(uint zero, float a, float b, float c, uint area, uint for_b, uint for_c) {
+    const float share = recip(number((int)area));
+    const float weight_b = mul(number((int)for_b), share);
+    const float weight_c = mul(number((int)for_c), share);
     const float w = add(a, add(mul(weight_b, sub(b, a)), mul(weight_c, sub(c, a))));
     return clamp(w, min(min(a, b), c), max(max(a, b), c));
+}
+
+// Bits by which an area must be shifted to fit a float's mantissa, from its leading zeros in 64 bits.
+static uint spare_bits(uint leading_zeros) {
+    return leading_zeros < 40u ? 40u - leading_zeros : 0u;
 }
 
 // 1 / distance at the centre of a pixel, or 0 if the triangle does not own that sample.
@@ -62,15 +78,25 @@ static float sample_triangle(uint zero, Vertex va, Vertex vb, Vertex vc, int col
     const Corner a = new_corner(va, column, row);
     const Corner b = new_corner(vb, column, row);
     const Corner c = new_corner(vc, column, row);
-    const long ea = edge(b, c), eb = edge(c, a), ec = edge(a, b);
-    return owns(a, b, c, ea, eb, ec) ? depth(zero, a.w, b.w, c.w, ea, eb, ec) : 0.0f;
+    const long ea = wide_edge(b, c), eb = wide_edge(c, a), ec = wide_edge(a, b);
+    const long area = ea + eb + ec;
+    if (!owns(a, b, c, wide_sign(ea), wide_sign(eb), wide_sign(ec), wide_sign(area))) {
+        return 0.0f;
+    }
+    const ulong whole = wide_magnitude(area);
+    const uint spare = spare_bits((uint)clz(whole));
+    return depth(zero, a.w, b.w, c.w, (uint)(whole >> spare), (uint)(wide_magnitude(eb) >> spare),
+                 (uint)(wide_magnitude(ec) >> spare));
 }
 
-static long signed_area(Vertex a, Vertex b, Vertex c) {
-    const long bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-    return bx * cy - by * cx;
+// Sign of the area of a triangle on screen: -1 if it runs anticlockwise.
+static int signed_area(Vertex a, Vertex b, Vertex c) {
+    const Corner to_b = {b.x - a.x, b.y - a.y, 0.0f};
+    const Corner to_c = {c.x - a.x, c.y - a.y, 0.0f};
+    return wide_sign(wide_edge(to_b, to_c));
 }
 
+// First pixel whose centre is not before `low`, and one past the last whose centre is not after `high`.
 static int2 pixels_between(int low, int high) {
     const int half_pixel = SUBPIXELS / 2;
     return (int2)((low + half_pixel - 1) >> SUBPIXEL_BITS, ((high - half_pixel) >> SUBPIXEL_BITS) + 1);

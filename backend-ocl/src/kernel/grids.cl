@@ -1,0 +1,119 @@
+// No mirror in core: where a chunk of draws lies between its kernels, the one that dices and shades each draw
+// once (`draw.cl`) and those that sample them tile by tile (`tiles.cl`).
+//
+// One buffer of words: the head, a box for every BLOCK of draws, then a grid a draw. A grid is its flags, then
+// column, row and 1 / distance of all its vertices, of which the last eight are the ends of its seams' chords,
+// then position and colour of all but those, a coordinate after the other.
+
+// Draws a chunk, and draws that share a box.
+#define CHUNK 2048u
+#define BLOCK GROUP
+#define BLOCKS (CHUNK / BLOCK)
+
+// The head: first draw of the chunk and number of its draws; then, is there any grid of kind 1, of kind 2?
+#define HEAD_START 0u
+#define HEAD_COUNT 1u
+#define HEAD_KINDS 2u
+// Low bits of a grid's flags: its kind. Nothing is to be seen of it; it is small and whole, so that it needs
+// neither clipping nor wide integers; any other.
+#define KIND_HIDDEN 0u
+#define KIND_NEAR 1u
+#define KIND_GENERAL 2u
+#define KIND_MASK 3u
+// Above them, for each border, log2 of the longest chord of a neighbour (3 bits) and is there one beyond (1 bit).
+#define SEAM_SHIFT 4u
+#define SEAM_BITS 4u
+#define SEAM_CHORD 8u
+#define SEAM_LONGEST 7u
+
+#define BOXES 4u
+#define GRIDS (BOXES + 2u * BLOCKS)
+// Ends of the chords beyond the four borders.
+#define ENDS 8u
+
+// Pixels a side of the tile that one group samples.
+#define TILE 16u
+
+// The dice rate is a power of two: this is its exponent.
+static uint rate_bits(__constant Frame *frame) {
+    return 31u - clz(frame->rate);
+}
+
+static uint vertices(__constant Frame *frame) {
+    return (frame->rate + 1u) * (frame->rate + 1u);
+}
+
+// First word of the grid of draw `index` of the chunk.
+static uint grid_base(__constant Frame *frame, uint index) {
+    return GRIDS + index * (1u + 3u * (vertices(frame) + ENDS) + 6u * vertices(frame));
+}
+
+// First word of screen coordinate k (column, row, 1 / distance) of a grid.
+static uint screen_base(__constant Frame *frame, uint base, uint k) {
+    return base + 1u + k * (vertices(frame) + ENDS);
+}
+
+// First word of number k (position x, y, z, colour red, green, blue) of a grid.
+static uint space_base(__constant Frame *frame, uint base, uint k) {
+    return screen_base(frame, base, 3u) + k * vertices(frame);
+}
+
+static Vertex vertex_at(__constant Frame *frame, __global const uint *grids, uint base, uint at) {
+    const Vertex vertex = {as_int(grids[screen_base(frame, base, 0u) + at]),
+                           as_int(grids[screen_base(frame, base, 1u) + at]),
+                           as_float(grids[screen_base(frame, base, 2u) + at])};
+    return vertex;
+}
+
+static void put_screen(__constant Frame *frame, __global uint *grids, uint base, uint at, Vertex vertex) {
+    grids[screen_base(frame, base, 0u) + at] = as_uint(vertex.x);
+    grids[screen_base(frame, base, 1u) + at] = as_uint(vertex.y);
+    grids[screen_base(frame, base, 2u) + at] = as_uint(vertex.w);
+}
+
+// Position (first = 0) or colour (3) of a vertex.
+static float3 space_at(__constant Frame *frame, __global const uint *grids, uint base, uint at, uint first) {
+    return (float3)(as_float(grids[space_base(frame, base, first) + at]),
+                    as_float(grids[space_base(frame, base, first + 1u) + at]),
+                    as_float(grids[space_base(frame, base, first + 2u) + at]));
+}
+
+static void put_space(__constant Frame *frame, __global uint *grids, uint base, uint at, uint first,
+                      float3 value) {
+    grids[space_base(frame, base, first) + at] = as_uint(value.x);
+    grids[space_base(frame, base, first + 1u) + at] = as_uint(value.y);
+    grids[space_base(frame, base, first + 2u) + at] = as_uint(value.z);
+}
+
+// A box that a work-group finds together.
+typedef struct {
+    int low_x;
+    int high_x;
+    int low_y;
+    int high_y;
+} Extents;
+
+static Extents nothing(void) {
+    const Extents extents = {0x7fffffff, -0x7fffffff, 0x7fffffff, -0x7fffffff};
+    return extents;
+}
+
+// Atomics are spared where they would change nothing: what is stored only ever falls, or only rises.
+static void lower(volatile __local int *stored, int value) {
+    if (value < *stored) {
+        atomic_min(stored, value);
+    }
+}
+
+static void raise(volatile __local int *stored, int value) {
+    if (value > *stored) {
+        atomic_max(stored, value);
+    }
+}
+
+static void include(__local Extents *extents, int x, int y) {
+    lower(&extents->low_x, x);
+    raise(&extents->high_x, x);
+    lower(&extents->low_y, y);
+    raise(&extents->high_y, y);
+}

@@ -1,0 +1,177 @@
+// Mirrors the second half of core's fused stage, sample: one work-group a tile of the image, over all draws of
+// the chunk that can touch it and are of the kernel's kind, up to LISTED at a time.
+//
+// Barriers are reached by all work-items alike.
+
+// The tile of this work-group, cut off at the image's border.
+static int4 tile_box(__constant Frame *frame) {
+    const int left = get_group_id(0) * TILE, top = get_group_id(1) * TILE;
+    return (int4)(left, lesser(left + (int)TILE, frame->width), top, lesser(top + (int)TILE, frame->height));
+}
+
+static bool touches(int4 box, uint columns, uint rows) {
+    return (int)(columns & 0xffffu) < box.y && (int)(columns >> 16) > box.x && (int)(rows & 0xffffu) < box.w
+        && (int)(rows >> 16) > box.z;
+}
+
+// Lists the blocks that can touch the tile.
+static void list_blocks(const Sampler *s, uint lane) {
+    for (uint block = lane; block < BLOCKS; block += GROUP) {
+        if (touches(s->box, s->grids[BOXES + 2u * block], s->grids[BOXES + 2u * block + 1u])) {
+            s->tile->blocks[atomic_inc(&s->tile->blocks_listed)] = block;
+        }
+    }
+}
+
+// Lists the draws of those blocks that can touch it and are of this kind.
+static void list_draws(const Sampler *s, uint kind, __global const Draw *draws, uint lane) {
+    const uint count = s->grids[HEAD_COUNT];
+    for (uint place = 0u; place < s->tile->blocks_listed; place++) {
+        const uint index = s->tile->blocks[place] * BLOCK + lane;
+        if (index < count && touches(s->box, draws[index].columns, draws[index].rows)
+            && (s->grids[grid_base(s->frame, index)] & KIND_MASK) == kind) {
+            s->tile->list[atomic_inc(&s->tile->listed)] = index;
+        }
+    }
+}
+
+// What the tile's pixels show already.
+static void recall(const Sampler *s, __global const Sample *samples, uint lane) {
+    for (uint pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
+        const int column = s->box.x + (int)(pixel % TILE), row = s->box.z + (int)(pixel / TILE);
+        const bool is_one = column < s->box.y && row < s->box.w;
+        s->tile->depth[pixel] = is_one ? samples[(uint)row * s->frame->width + (uint)column].depth : 0u;
+        s->tile->key[pixel] = NO_KEY;
+    }
+}
+
+static bool is_before(Draw a, Draw b) {
+    if (a.patch_id != b.patch_id) {
+        return a.patch_id < b.patch_id;
+    }
+    return a.u != b.u ? a.u < b.u : a.v < b.v;
+}
+
+// Ranks `count` listed draws, from number `first` of the list on, in the order of (patch, u, v).
+static void rank_all(__local Tile *tile, __global const Draw *draws, uint first, uint count, uint lane) {
+    for (uint slot = lane; slot < count; slot += GROUP) {
+        const uint index = tile->list[first + slot];
+        const Draw mine = draws[index];
+        uint before = 0u;
+        for (uint other = 0u; other < count; other++) {
+            before += is_before(draws[tile->list[first + other]], mine) ? 1u : 0u;
+        }
+        tile->rank[slot] = before;
+        tile->order[before] = index;
+    }
+}
+
+// Samples the items of the listed draws, every 64th a work-item.
+static void sample_all(Sampler *s, uint kind, uint first, uint count, uint lane) {
+    const uint all = items(s->frame);
+    const uint slots = GROUP / all, tasks = GROUP % all;
+    uint slot = lane / all, task = lane % all;
+    while (slot < count) {
+        const uint base = grid_base(s->frame, s->tile->list[first + slot]);
+        const Item item = item_of(s->frame, s->grids[base], task);
+        const uint key = (uint)s->tile->rank[slot] << CELL_BITS | item.cell;
+        if (item.exists && kind == KIND_NEAR) {
+            sample_near(s, base, item, key);
+        } else if (item.exists) {
+            sample_general(s, base, item, key);
+        }
+        task += tasks;
+        slot += slots + (task >= all ? 1u : 0u);
+        task -= task >= all ? all : 0u;
+    }
+}
+
+static void resolve_hits(__local Tile *tile, uint lane) {
+    for (uint hit = lane; hit < tile->hits; hit += GROUP) {
+        const uint place = tile->hit_place[hit];
+        resolve_hit(tile, place >> PIXEL_SHIFT, tile->hit_depth[hit], place & ((1u << PIXEL_SHIFT) - 1u));
+    }
+}
+
+// Shows the candidates of the tile's pixels that are nearer than what is stored.
+static void resolve(const Sampler *s, __global const Draw *draws, __global Sample *samples,
+                    __global Colour *colours, uint lane) {
+    for (uint pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
+        const uint key = s->tile->key[pixel];
+        if (key != NO_KEY) {
+            const uint index = s->tile->order[key >> CELL_BITS];
+            const uint cell = key & ((1u << CELL_BITS) - 1u);
+            const uint column = s->box.x + pixel % TILE, row = s->box.z + pixel / TILE;
+            const uint at = row * s->frame->width + column;
+            const Sample found = sample_of(s->frame, surface_of(draws[index]), cell, s->tile->depth[pixel]);
+            if (nearer(found, samples[at])) {
+                samples[at] = found;
+                colours[at] = colour_of(s->frame, s->grids, grid_base(s->frame, index), cell);
+            }
+            s->tile->key[pixel] = NO_KEY;
+        }
+    }
+}
+
+// Depths, then keys, then what has become visible, LISTED draws at a time.
+static void sample_listed(Sampler *s, uint kind, __global const Draw *draws, __global Sample *samples,
+                          __global Colour *colours, uint lane) {
+    const uint listed = s->tile->listed;
+    for (uint first = 0u; first < listed; first += LISTED) {
+        const uint count = listed - first < LISTED ? listed - first : LISTED;
+        rank_all(s->tile, draws, first, count, lane);
+        if (first == 0u) {
+            recall(s, samples, lane);
+        }
+        if (lane == 0u) {
+            s->tile->hits = 0u;
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        for (uint time = 0u; time < 2u; time++) {
+            s->second_time = time == 1u;
+            if (s->second_time && s->tile->hits <= HITS) {
+                resolve_hits(s->tile, lane);
+            } else {
+                sample_all(s, kind, first, count, lane);
+            }
+            barrier(CLK_LOCAL_MEM_FENCE);
+        }
+        resolve(s, draws, samples, colours, lane);
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+}
+
+static void tiles(__constant Frame *frame, uint kind, __global const Draw *all_draws,
+                  __global const uint *grids, __global Sample *samples, __global Colour *colours,
+                  __local Tile *tile) {
+    const uint lane = get_local_id(0);
+    if (grids[HEAD_KINDS + kind - 1u] == 0u) {
+        return;
+    }
+    __global const Draw *draws = all_draws + grids[HEAD_START];
+    Sampler s = {frame, grids, tile, tile_box(frame), false};
+    if (lane == 0u) {
+        tile->blocks_listed = 0u;
+        tile->listed = 0u;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    list_blocks(&s, lane);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    list_draws(&s, kind, draws, lane);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    sample_listed(&s, kind, draws, samples, colours, lane);
+}
+
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
+void tiles_near(__constant Frame *frame, __global const Draw *draws, __global const uint *grids,
+                __global Sample *samples, __global Colour *colours) {
+    __local Tile tile;
+    tiles(frame, KIND_NEAR, draws, grids, samples, colours, &tile);
+}
+
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
+void tiles_general(__constant Frame *frame, __global const Draw *draws, __global const uint *grids,
+                   __global Sample *samples, __global Colour *colours) {
+    __local Tile tile;
+    tiles(frame, KIND_GENERAL, draws, grids, samples, colours, &tile);
+}
