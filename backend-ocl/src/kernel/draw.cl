@@ -54,7 +54,7 @@ static void put_ends(__constant Frame *frame, __local Grid *grid, __global uint 
     }
 }
 
-// Vertices and their colours: rows of work-items go through rows of vertices.
+// Vertices and their colours.
 static void dice_and_shade(__constant Frame *frame, __global const Object *object, Surface surface,
                            __local Grid *grid, __global uint *grids, uint base, uint lane) {
     const uint stride = frame->rate + 1u;
@@ -99,8 +99,18 @@ static uint kind_of(__constant Frame *frame, __local const Grid *grid) {
     return narrow && grid->must_clip == 0u ? KIND_NEAR : KIND_GENERAL;
 }
 
-static void put_flags(__constant Frame *frame, __local const Grid *grid, __global uint *grids, uint base) {
+// The pixels between the first and the last that the box around the vertices covers, of `count`, packed.
+static uint packed(int low, int high, uint count) {
+    const int2 pixels = pixels_between(low, high);
+    return (uint)greater(0, lesser(pixels.x, count)) | (uint)greater(0, lesser(pixels.y, count)) << 16;
+}
+
+// What a grid that is whole can touch is known better now than when it was bounded.
+static void put_head(__constant Frame *frame, Draw draw, __local const Grid *grid, __global uint *grids,
+                     uint base) {
     const uint found = kind_of(frame, grid);
+    const Extents extents = grid->extents;
+    const bool is_near = found == KIND_NEAR;
     uint flags = found;
     for (uint border = 0u; border < 4u; border++) {
         const uint height = 31u - clz(grid->seams[border].longest);
@@ -109,6 +119,8 @@ static void put_flags(__constant Frame *frame, __local const Grid *grid, __globa
         flags |= bits << (SEAM_SHIFT + SEAM_BITS * border);
     }
     grids[base] = flags;
+    grids[base + 1u] = is_near ? packed(extents.low_x, extents.high_x, frame->width) : draw.columns;
+    grids[base + 2u] = is_near ? packed(extents.low_y, extents.high_y, frame->height) : draw.rows;
     if (found != KIND_HIDDEN) {
         grids[HEAD_KINDS + found - 1u] = 1u; // whoever writes, it is the same
     }
@@ -122,7 +134,8 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     if (index >= grids[HEAD_COUNT]) {
         return;
     }
-    const Surface surface = surface_of(draws[grids[HEAD_START] + index]);
+    const Draw draw = draws[grids[HEAD_START] + index];
+    const Surface surface = surface_of(draw);
     __global const Patch *patch = patches + surface.patch_id;
     __global const Object *object = objects + patch->object;
     const uint base = grid_base(frame, index);
@@ -134,6 +147,6 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     seek_faces(frame, &grid, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
-        put_flags(frame, &grid, grids, base);
+        put_head(frame, draw, &grid, grids, base);
     }
 }

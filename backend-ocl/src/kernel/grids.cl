@@ -1,9 +1,9 @@
 // No mirror in core: where a chunk of draws lies between its kernels, the one that dices and shades each draw
 // once (`draw.cl`) and those that sample them tile by tile (`tiles.cl`).
 //
-// One buffer of words: the head, a box for every BLOCK of draws, then a grid a draw. A grid is its flags, then
-// column, row and 1 / distance of all its vertices, of which the last eight are the ends of its seams' chords,
-// then position and colour of all but those, a coordinate after the other.
+// One buffer of words: the head, a box for every BLOCK of draws, then a grid a draw. A grid is its flags and
+// the pixels that it can touch, then column, row and 1 / distance of all its vertices, of which the last eight
+// are the ends of its seams' chords, then position and colour of all but those, a coordinate after the other.
 
 // Draws a chunk, and draws that share a box.
 #define CHUNK 2048u
@@ -28,6 +28,8 @@
 
 #define BOXES 4u
 #define GRIDS (BOXES + 2u * BLOCKS)
+// Words of a grid before its vertices: flags, columns and rows; those are packed as in a draw.
+#define GRID_HEAD 3u
 // Ends of the chords beyond the four borders.
 #define ENDS 8u
 
@@ -45,12 +47,12 @@ static uint vertices(__constant Frame *frame) {
 
 // First word of the grid of draw `index` of the chunk.
 static uint grid_base(__constant Frame *frame, uint index) {
-    return GRIDS + index * (1u + 3u * (vertices(frame) + ENDS) + 6u * vertices(frame));
+    return GRIDS + index * (GRID_HEAD + 3u * (vertices(frame) + ENDS) + 6u * vertices(frame));
 }
 
 // First word of screen coordinate k (column, row, 1 / distance) of a grid.
 static uint screen_base(__constant Frame *frame, uint base, uint k) {
-    return base + 1u + k * (vertices(frame) + ENDS);
+    return base + GRID_HEAD + k * (vertices(frame) + ENDS);
 }
 
 // First word of number k (position x, y, z, colour red, green, blue) of a grid.

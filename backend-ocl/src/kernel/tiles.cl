@@ -24,12 +24,12 @@ static void list_blocks(const Sampler *s, uint lane) {
 }
 
 // Lists the draws of those blocks that can touch it and are of this kind.
-static void list_draws(const Sampler *s, uint kind, __global const Draw *draws, uint lane) {
+static void list_draws(const Sampler *s, uint kind, uint lane) {
     const uint count = s->grids[HEAD_COUNT];
     for (uint place = 0u; place < s->tile->blocks_listed; place++) {
         const uint index = s->tile->blocks[place] * BLOCK + lane;
-        if (index < count && touches(s->box, draws[index].columns, draws[index].rows)
-            && (s->grids[grid_base(s->frame, index)] & KIND_MASK) == kind) {
+        __global const uint *head = s->grids + grid_base(s->frame, index);
+        if (index < count && (head[0] & KIND_MASK) == kind && touches(s->box, head[1], head[2])) {
             s->tile->list[atomic_inc(&s->tile->listed)] = index;
         }
     }
@@ -157,7 +157,7 @@ static void tiles(__constant Frame *frame, uint kind, __global const Draw *all_d
     barrier(CLK_LOCAL_MEM_FENCE);
     list_blocks(&s, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    list_draws(&s, kind, draws, lane);
+    list_draws(&s, kind, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     sample_listed(&s, kind, draws, samples, colours, lane);
 }
