@@ -30,10 +30,10 @@ static float sample_quad(uint zero, Vertex va, Vertex vb, Vertex vc, Vertex vd, 
 }
 
 static void sample_near(Sampler *s, uint base, Item item, uint key) {
-    const Vertex a = vertex_at(s->frame, s->grids, base, item.corners.x);
-    const Vertex b = vertex_at(s->frame, s->grids, base, item.corners.y);
-    const Vertex c = vertex_at(s->frame, s->grids, base, item.corners.z);
-    const Vertex d = vertex_at(s->frame, s->grids, base, item.corners.w);
+    const Vertex a = vertex_at(s->frame, s->grids, base, item.a);
+    const Vertex b = vertex_at(s->frame, s->grids, base, item.b);
+    const Vertex c = vertex_at(s->frame, s->grids, base, item.c);
+    const Vertex d = vertex_at(s->frame, s->grids, base, item.d);
     const int4 pixels = pixels_of_quad(s->box, a, b, c, d);
     for (int y = pixels.z; y < pixels.w; y++) {
         for (int x = pixels.x; x < pixels.y; x++) {

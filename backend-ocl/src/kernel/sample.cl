@@ -81,7 +81,10 @@ static void put(Sampler *s, int column, int row, float w, uint key) {
 // One item of a grid: a quad, or a sliver of a seam as a quad whose last two corners are one.
 typedef struct {
     // Numbers of its corners; see `grids.cl`.
-    uint4 corners;
+    uint a;
+    uint b;
+    uint c;
+    uint d;
     uint cell;
     bool is_quad;
     // Is there such a sliver?
@@ -93,37 +96,45 @@ static uint items(__constant Frame *frame) {
     return frame->rate * (frame->rate + 4u);
 }
 
-// Row and column of a vertex, or of the micropolygon that starts there; in y and x.
-typedef uint2 Place;
+// Row and column of a vertex, or of the micropolygon that starts there.
+typedef struct {
+    uint column;
+    uint row;
+} Place;
+
+static Place new_place(uint column, uint row) {
+    const Place place = {column, row};
+    return place;
+}
 
 static uint cell_of(Place place) {
-    return place.x << CELL_SHIFT | place.y;
+    return place.column << CELL_SHIFT | place.row;
 }
 
 static Place place_of(uint cell) {
-    return (Place)(cell >> CELL_SHIFT, cell & CELL_MASK);
+    return new_place(cell >> CELL_SHIFT, cell & CELL_MASK);
 }
 
 static uint vertex_number(__constant Frame *frame, Place place) {
-    return place.y * (frame->rate + 1u) + place.x;
+    return place.row * (frame->rate + 1u) + place.column;
 }
 
 static Item quad_of(__constant Frame *frame, Place place) {
     const uint a = vertex_number(frame, place), d = a + frame->rate + 1u;
-    const Item item = {(uint4)(a, a + 1u, d + 1u, d), cell_of(place), true, true};
+    const Item item = {a, a + 1u, d + 1u, d, cell_of(place), true, true};
     return item;
 }
 
 // Step `t` of a border.
 static Place border_place(__constant Frame *frame, uint border, uint t) {
     const uint fixed = border & 1u ? frame->rate : 0u;
-    return border < 2u ? (Place)(t, fixed) : (Place)(fixed, t);
+    return border < 2u ? new_place(t, fixed) : new_place(fixed, t);
 }
 
 static Item sliver(__constant Frame *frame, uint first, Place middle, uint last, bool exists) {
     const uint most = frame->rate - 1u;
-    const Place beside = (Place)(middle.x < most ? middle.x : most, middle.y < most ? middle.y : most);
-    const Item item = {(uint4)(first, vertex_number(frame, middle), last, last), cell_of(beside), false, exists};
+    const Place beside = new_place(middle.column < most ? middle.column : most, middle.row < most ? middle.row : most);
+    const Item item = {first, vertex_number(frame, middle), last, last, cell_of(beside), false, exists};
     return item;
 }
 
@@ -149,7 +160,7 @@ static Item sliver_of(__constant Frame *frame, uint flags, uint task) {
 static Item item_of(__constant Frame *frame, uint flags, uint task) {
     const uint quads = frame->rate * frame->rate;
     if (task < quads) {
-        return quad_of(frame, (Place)(task & (frame->rate - 1u), task >> rate_bits(frame)));
+        return quad_of(frame, new_place(task & (frame->rate - 1u), task >> rate_bits(frame)));
     }
     return sliver_of(frame, flags, task - quads);
 }
@@ -158,8 +169,8 @@ static Item item_of(__constant Frame *frame, uint flags, uint task) {
 static Sample sample_of(__constant Frame *frame, Surface surface, uint cell, uint depth_bits) {
     const Place place = place_of(cell);
     const Sample sample = {depth_bits, surface.patch_id,
-                           surface.u + place.x * (u_size(surface) >> rate_bits(frame)),
-                           surface.v + place.y * (v_size(surface) >> rate_bits(frame))};
+                           surface.u + place.column * (u_size(surface) >> rate_bits(frame)),
+                           surface.v + place.row * (v_size(surface) >> rate_bits(frame))};
     return sample;
 }
 
@@ -170,11 +181,11 @@ static float mean4(uint zero, float a, float b, float c, float d) {
 // Mean colour of the four vertices of a micropolygon.
 static Colour colour_of(__constant Frame *frame, __global const uint *grids, uint base, uint cell) {
     const uint zero = frame->zero;
-    const uint4 corners = quad_of(frame, place_of(cell)).corners;
-    const float3 a = space_at(frame, grids, base, corners.x, 3u);
-    const float3 b = space_at(frame, grids, base, corners.y, 3u);
-    const float3 c = space_at(frame, grids, base, corners.z, 3u);
-    const float3 d = space_at(frame, grids, base, corners.w, 3u);
+    const Item quad = quad_of(frame, place_of(cell));
+    const float3 a = space_at(frame, grids, base, quad.a, 3u);
+    const float3 b = space_at(frame, grids, base, quad.b, 3u);
+    const float3 c = space_at(frame, grids, base, quad.c, 3u);
+    const float3 d = space_at(frame, grids, base, quad.d, 3u);
     const Colour colour = {{mean4(zero, a.x, b.x, c.x, d.x), mean4(zero, a.y, b.y, c.y, d.y),
                             mean4(zero, a.z, b.z, c.z, d.z), 1.0f}};
     return colour;
