@@ -18,9 +18,7 @@ const BLOCK: u64 = GROUP as u64;
 /// Blocks a chunk; as `BLOCKS` there.
 pub(crate) const BLOCKS: u64 = DRAWS / BLOCK;
 /// Words before the first grid; as `GRIDS` there.
-const GRIDS: u64 = 4 + 2 * BLOCKS;
-/// Words of a grid before its vertices; as `GRID_HEAD` there.
-const GRID_HEAD: u64 = 3;
+const GRIDS: u64 = 4 + 2 * BLOCKS + 3 * DRAWS;
 
 /// Room for the grids of a chunk at this rate: what was kept from before, if that is enough.
 ///
@@ -41,5 +39,5 @@ pub(crate) fn grids(
 /// Words of the grids of a chunk; see `grids.cl`.
 fn grids_words(rate: u32) -> u64 {
     let vertices = (u64::from(rate) + 1).pow(2);
-    GRIDS + DRAWS * (GRID_HEAD + 3 * (vertices + 8) + 6 * vertices)
+    GRIDS + DRAWS * (3 * (vertices + 8) + 6 * vertices)
 }

@@ -106,8 +106,8 @@ static uint packed(int low, int high, uint count) {
 }
 
 // What a grid that is whole can touch is known better now than when it was bounded.
-static void put_head(__constant Frame *frame, Draw draw, __local const Grid *grid, __global uint *grids,
-                     uint base) {
+static void put_flags(__constant Frame *frame, Draw draw, __local const Grid *grid, __global uint *grids,
+                      uint index) {
     const uint found = kind_of(frame, grid);
     const Extents extents = grid->extents;
     const bool is_near = found == KIND_NEAR;
@@ -118,9 +118,10 @@ static void put_head(__constant Frame *frame, Draw draw, __local const Grid *gri
         const uint bits = longest | (grid->seams[border].has_chord != 0u ? SEAM_CHORD : 0u);
         flags |= bits << (SEAM_SHIFT + SEAM_BITS * border);
     }
-    grids[base] = flags;
-    grids[base + 1u] = is_near ? packed(extents.low_x, extents.high_x, frame->width) : draw.columns;
-    grids[base + 2u] = is_near ? packed(extents.low_y, extents.high_y, frame->height) : draw.rows;
+    const uint place = flags_place(index);
+    grids[place] = flags;
+    grids[place + 1u] = is_near ? packed(extents.low_x, extents.high_x, frame->width) : draw.columns;
+    grids[place + 2u] = is_near ? packed(extents.low_y, extents.high_y, frame->height) : draw.rows;
     if (found != KIND_HIDDEN) {
         grids[HEAD_KINDS + found - 1u] = 1u; // whoever writes, it is the same
     }
@@ -147,6 +148,6 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     seek_faces(frame, &grid, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
-        put_head(frame, draw, &grid, grids, base);
+        put_flags(frame, draw, &grid, grids, index);
     }
 }

@@ -1,9 +1,10 @@
 // No mirror in core: where a chunk of draws lies between its kernels, the one that dices and shades each draw
 // once (`draw.cl`) and those that sample them tile by tile (`tiles.cl`).
 //
-// One buffer of words: the head, a box for every BLOCK of draws, then a grid a draw. A grid is its flags and
-// the pixels that it can touch, then column, row and 1 / distance of all its vertices, of which the last eight
-// are the ends of its seams' chords, then position and colour of all but those, a coordinate after the other.
+// One buffer of words: the head, a box for every BLOCK of draws, the flags and the box of every draw, then a grid
+// a draw. A grid is column, row and 1 / distance of all its vertices, of which the last eight are the ends of its
+// seams' chords, then position and colour of all but those, a coordinate after the other. A box is the pixels
+// that can be touched, columns and rows, packed as those of a draw.
 
 // Draws a chunk, and draws that share a box.
 #define CHUNK 2048u
@@ -14,7 +15,7 @@
 #define HEAD_START 0u
 #define HEAD_COUNT 1u
 #define HEAD_KINDS 2u
-// Low bits of a grid's flags: its kind. Nothing is to be seen of it; it is small and whole, so that it needs
+// Low bits of a draw's flags: its kind. Nothing is to be seen of it; it is small and whole, so that it needs
 // neither clipping nor wide integers; any other.
 #define KIND_HIDDEN 0u
 #define KIND_NEAR 1u
@@ -27,9 +28,10 @@
 #define SEAM_LONGEST 7u
 
 #define BOXES 4u
-#define GRIDS (BOXES + 2u * BLOCKS)
-// Words of a grid before its vertices: flags, columns and rows; those are packed as in a draw.
-#define GRID_HEAD 3u
+#define FLAGS (BOXES + 2u * BLOCKS)
+// Words a draw from there on: flags, columns, rows.
+#define FLAGS_WORDS 3u
+#define GRIDS (FLAGS + FLAGS_WORDS * CHUNK)
 // Ends of the chords beyond the four borders.
 #define ENDS 8u
 
@@ -45,14 +47,19 @@ static uint vertices(__constant Frame *frame) {
     return (frame->rate + 1u) * (frame->rate + 1u);
 }
 
+// Place of the flags of draw `index` of the chunk; its box follows.
+static uint flags_place(uint index) {
+    return FLAGS + FLAGS_WORDS * index;
+}
+
 // First word of the grid of draw `index` of the chunk.
 static uint grid_base(__constant Frame *frame, uint index) {
-    return GRIDS + index * (GRID_HEAD + 3u * (vertices(frame) + ENDS) + 6u * vertices(frame));
+    return GRIDS + index * (3u * (vertices(frame) + ENDS) + 6u * vertices(frame));
 }
 
 // First word of screen coordinate k (column, row, 1 / distance) of a grid.
 static uint screen_base(__constant Frame *frame, uint base, uint k) {
-    return base + GRID_HEAD + k * (vertices(frame) + ENDS);
+    return base + k * (vertices(frame) + ENDS);
 }
 
 // First word of number k (position x, y, z, colour red, green, blue) of a grid.

@@ -28,8 +28,8 @@ static void list_draws(const Sampler *s, uint kind, uint lane) {
     const uint count = s->grids[HEAD_COUNT];
     for (uint place = 0u; place < s->tile->blocks_listed; place++) {
         const uint index = s->tile->blocks[place] * BLOCK + lane;
-        __global const uint *head = s->grids + grid_base(s->frame, index);
-        if (index < count && (head[0] & KIND_MASK) == kind && touches(s->box, head[1], head[2])) {
+        __global const uint *flags = s->grids + flags_place(index);
+        if (index < count && (flags[0] & KIND_MASK) == kind && touches(s->box, flags[1], flags[2])) {
             s->tile->list[atomic_inc(&s->tile->listed)] = index;
         }
     }
@@ -72,8 +72,8 @@ static void sample_all(Sampler *s, uint kind, uint first, uint count, uint lane)
     const uint slots = GROUP / all, tasks = GROUP % all;
     uint slot = lane / all, task = lane % all;
     while (slot < count) {
-        const uint base = grid_base(s->frame, s->tile->list[first + slot]);
-        const Item item = item_of(s->frame, s->grids[base], task);
+        const uint index = s->tile->list[first + slot], base = grid_base(s->frame, index);
+        const Item item = item_of(s->frame, s->grids[flags_place(index)], task);
         const uint key = (uint)s->tile->rank[slot] << CELL_BITS | item.cell;
         if (item.exists && kind == KIND_NEAR) {
             sample_near(s, base, item, key);
