@@ -77,6 +77,49 @@ fn an_image_that_ends_within_tiles_has_the_bits_of_the_cpu() {
     compare(&case("still-life", &options), &[4096], &OpenOptions::default());
 }
 
+/// A tile that holds few draws and few hits at once goes through them in many pieces, and looks twice.
+#[test]
+fn the_room_of_a_tile_changes_no_bits() {
+    let edit = |name: &str, source: &str| match name {
+        "sample.cl" => {
+            let edited = source.replace("LISTED 128u", "LISTED 3u").replace("HITS 1024u", "HITS 40u");
+            assert_eq!(edited.len(), source.len() - 4, "both are edited");
+            edited
+        }
+        _ => source.to_owned(),
+    };
+    let options = OpenOptions { edit: Some(&edit), ..OpenOptions::default() };
+    for scene in SCENES {
+        compare(&case(scene, &SMALL), &[4096], &options);
+    }
+}
+
+#[test]
+fn more_draws_than_a_chunk_have_the_bits_of_the_cpu() {
+    let options = FrameOptions { bound: 2.0, rate: 2, ..SMALL };
+    let case = case("teapot", &options);
+    let drawn = run(&mut CpuDevice::new(1).expect("threads"), &case, 4096).expect("renders").drawn;
+    assert!(drawn > 4 * 2048, "{drawn} drawn");
+    compare(&case, &[300, 4096], &OpenOptions::default());
+}
+
+#[test]
+fn grids_are_counted_and_kept() {
+    for index in 0..device_count() {
+        let mut device =
+            OclDevice::open(index, &OpenOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+        let mut kept_after = |rate| {
+            let case = case("teapot", &FrameOptions { rate, ..SMALL });
+            run(&mut device, &case, 4096).unwrap_or_else(|error| panic!("{error}"));
+            device.bytes_allocated()
+        };
+        let at_8 = kept_after(8);
+        assert!(at_8 > 2048 * 9 * 81 * 4, "{at_8}");
+        assert_eq!(kept_after(2), at_8);
+        assert!(kept_after(16) > at_8);
+    }
+}
+
 #[test]
 fn the_barrier_changes_no_bits() {
     let options = OpenOptions { barrier: true, ..OpenOptions::default() };
