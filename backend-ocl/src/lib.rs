@@ -1,7 +1,8 @@
 //! micropoly's stages on OpenCL devices: kernels that mirror `micropoly-core` function by function.
 //!
-//! `src/kernel` has a file for each of core's, and for the kernels into which the fused stage is cut. Nothing in them rounds but the functions of `num.cl`, without
-//! fusing ([`OpenOptions::barrier`] enforces that whatever the compiler is told), so the bits are core's.
+//! `src/kernel` has a file for each of core's, and some for the kernels into which the fused stage is cut.
+//! Nothing in them rounds but the functions of `num.cl`, without fusing ([`OpenOptions::barrier`] enforces that
+//! whatever the compiler is told), so the bits are core's.
 //! The OpenCL library is loaded at run time: without one everything ends in [`OclError::NoDriver`].
 
 mod buffer;

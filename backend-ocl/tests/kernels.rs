@@ -1,4 +1,5 @@
-//! The kernels' texts: their arguments are those of the list and of the stages' bindings, and they use no arithmetic but `num.cl`'s.
+//! The kernels' texts: their arguments are those of the list, which has the stages' bindings, and they use no
+//! arithmetic but `num.cl`'s.
 
 use micropoly_backend_ocl::{Argument, FILES, Which};
 use micropoly_core::abi::{Layout, Shared};
