@@ -36,6 +36,11 @@ pub(crate) fn grids(
     }
 }
 
+/// Bytes of the grids of a chunk at this rate.
+pub(crate) fn bytes(rate: u32) -> u64 {
+    grids_words(rate) * u32::LAYOUT.size as u64
+}
+
 /// Words of the grids of a chunk; see `grids.cl`.
 fn grids_words(rate: u32) -> u64 {
     let vertices = (u64::from(rate) + 1).pow(2);

@@ -242,6 +242,14 @@ impl Device for OclDevice {
         self.allocated.load(Ordering::Relaxed)
     }
 
+    fn max_buffer_bytes(&self, _layout: Layout) -> u64 {
+        self.info.max_allocation
+    }
+
+    fn own_bytes(&self, _width: u32, _height: u32, rate: u32) -> u64 {
+        chunk::bytes(rate)
+    }
+
     fn write<T: Shared>(&mut self, buffer: &OclBuffer, data: &[T]) -> Result<(), OclError> {
         buffer.write(&self.queue, data)
     }

@@ -114,9 +114,10 @@ fn grids_are_counted_and_kept() {
             device.bytes_allocated()
         };
         let at_8 = kept_after(8);
-        assert!(at_8 > 2048 * 9 * 81 * 4, "{at_8}");
         assert_eq!(kept_after(2), at_8);
-        assert!(kept_after(16) > at_8);
+        let at_16 = kept_after(16);
+        assert_eq!([8, 16].map(|rate| device.own_bytes(SMALL.width, SMALL.height, rate)), [at_8, at_16]);
+        assert!(at_16 > at_8 && at_8 > 2048 * 9 * 81 * 4, "{at_8}, {at_16}");
     }
 }
 
