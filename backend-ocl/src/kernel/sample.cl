@@ -1,26 +1,30 @@
 // Mirrors core/src/kernel/sample.rs: micropolygons become samples, one a pixel at its centre; the nearest wins.
 //
 // What a work-group finds in its tile of the image is gathered in local memory: the nearest depth of each
-// pixel, then the smallest micropolygon that has it. Seldom are there more hits than there is room for;
-// then all are looked for a second time. Nothing depends on the order of work-items.
+// pixel, then, of the micropolygons that have it, the smallest patch and u, then the smallest v: three passes,
+// of which the last two look at the hits of the first only. Seldom are there more hits than there is room
+// for; then they look for them anew. Nothing depends on the order of work-items.
 #define TILE_PIXELS (TILE * TILE)
 // Most draws that are sampled together, and most hits that are kept.
 #define LISTED 128u
 #define HITS 1024u
-// A key is the rank of a draw among those sampled and, in the low bits, one of its micropolygons:
-// column * 32 + row, which is ordered as (u, v) is.
+// A key is the slot of a draw among those sampled and, in the low bits, one of its micropolygons:
+// column * 32 + row.
 #define CELL_BITS 10u
 #define CELL_SHIFT 5u
 #define CELL_MASK 31u
 #define PIXEL_SHIFT 24u
-#define NO_KEY 0xffffffffu
+#define RANK_BITS 7u
+#define NOBODY 0xffffffffu
 
 // What a work-group knows of its tile.
 typedef struct {
     // Bits of the nearest 1 / distance at each pixel; 0 = nothing.
     uint depth[TILE_PIXELS];
-    // The key that has it; NO_KEY if it was there before.
-    uint key[TILE_PIXELS];
+    // Patch, as its rank, and u of the micropolygon that has it; NOBODY if it was there before.
+    uint patch_u[TILE_PIXELS];
+    // Its v, and the rank of its draw.
+    uint v_draw[TILE_PIXELS];
     uint hits;
     uint hit_depth[HITS];
     uint hit_place[HITS];
@@ -30,8 +34,10 @@ typedef struct {
     // Blocks of draws that can touch it.
     uint blocks_listed;
     uchar blocks[BLOCKS];
-    // Ranks of the draws that are being sampled, and the draw of each rank.
+    // Of the draws that are being sampled: how many come before each in the draw buffer, how many have a
+    // smaller patch, and the draw of each rank.
     uchar rank[LISTED];
+    uchar patch_rank[LISTED];
     ushort order[LISTED];
 } Tile;
 
@@ -39,11 +45,15 @@ typedef struct {
 typedef struct {
     __constant Frame *frame;
     __global const uint *grids;
+    // Those of the chunk.
+    __global const Draw *draws;
     __local Tile *tile;
     // Left, right, top and bottom of the tile, in pixels of the image.
     int4 box;
-    // Are keys looked for, rather than depths?
-    bool second_time;
+    // Number of the draw in the list that has slot 0.
+    uint first;
+    // Which pass is it: 0, 1 or 2?
+    uint turn;
 } Sampler;
 
 static bool nearer(Sample new_sample, Sample old) {
@@ -54,28 +64,6 @@ static bool nearer(Sample new_sample, Sample old) {
         return new_sample.patch_id < old.patch_id;
     }
     return new_sample.u != old.u ? new_sample.u < old.u : new_sample.v < old.v;
-}
-
-static void resolve_hit(__local Tile *tile, uint pixel, uint found, uint key) {
-    if (found == tile->depth[pixel]) {
-        atomic_min(&tile->key[pixel], key);
-    }
-}
-
-// A hit of a pixel of the tile.
-static void put(Sampler *s, int column, int row, float w, uint key) {
-    const uint pixel = (uint)(row - s->box.z) * TILE + (uint)(column - s->box.x);
-    const uint found = as_uint(w);
-    volatile __local uint *stored = &s->tile->depth[pixel];
-    if (s->second_time) {
-        resolve_hit(s->tile, pixel, found, key);
-    } else if (found >= *stored && found >= atomic_max(stored, found)) {
-        const uint place = atomic_inc(&s->tile->hits);
-        if (place < HITS) {
-            s->tile->hit_depth[place] = found;
-            s->tile->hit_place[place] = pixel << PIXEL_SHIFT | key;
-        }
-    }
 }
 
 // One item of a grid: a quad, or a sliver of a seam as a quad whose last two corners are one.
@@ -174,14 +162,47 @@ static Sample sample_of(__constant Frame *frame, Surface surface, uint cell, uin
     return sample;
 }
 
+// Who has the nearest depth? First by patch and u, then by v.
+static void compare(const Sampler *s, uint pixel, uint found, uint key) {
+    __local Tile *tile = s->tile;
+    if (found != tile->depth[pixel]) {
+        return;
+    }
+    const uint slot = key >> CELL_BITS, cell = key & ((1u << CELL_BITS) - 1u);
+    const Surface surface = surface_of(s->draws[tile->list[s->first + slot]]);
+    const Sample it = sample_of(s->frame, surface, cell, found);
+    const uint patch_u = (uint)tile->patch_rank[slot] << PARAM_BITS | it.u;
+    if (s->turn == 1u) {
+        atomic_min(&tile->patch_u[pixel], patch_u);
+    } else if (patch_u == tile->patch_u[pixel]) {
+        atomic_min(&tile->v_draw[pixel], it.v << RANK_BITS | tile->rank[slot]);
+    }
+}
+
+// A hit of a pixel of the tile.
+static void put(Sampler *s, int column, int row, float w, uint key) {
+    const uint pixel = (uint)(row - s->box.z) * TILE + (uint)(column - s->box.x);
+    const uint found = as_uint(w);
+    volatile __local uint *stored = &s->tile->depth[pixel];
+    if (s->turn > 0u) {
+        compare(s, pixel, found, key);
+    } else if (found >= *stored && found >= atomic_max(stored, found)) {
+        const uint place = atomic_inc(&s->tile->hits);
+        if (place < HITS) {
+            s->tile->hit_depth[place] = found;
+            s->tile->hit_place[place] = pixel << PIXEL_SHIFT | key;
+        }
+    }
+}
+
 static float mean4(uint zero, float a, float b, float c, float d) {
     return mul(0.25f, add(add(a, c), add(b, d)));
 }
 
 // Mean colour of the four vertices of a micropolygon.
-static Colour colour_of(__constant Frame *frame, __global const uint *grids, uint base, uint cell) {
+static Colour colour_of(__constant Frame *frame, __global const uint *grids, uint base, Place place) {
     const uint zero = frame->zero;
-    const Item quad = quad_of(frame, place_of(cell));
+    const Item quad = quad_of(frame, place);
     const float3 a = space_at(frame, grids, base, quad.a, 3u);
     const float3 b = space_at(frame, grids, base, quad.b, 3u);
     const float3 c = space_at(frame, grids, base, quad.c, 3u);

@@ -41,40 +41,37 @@ static void recall(const Sampler *s, __global const Sample *samples, uint lane) 
         const int column = s->box.x + (int)(pixel % TILE), row = s->box.z + (int)(pixel / TILE);
         const bool is_one = column < s->box.y && row < s->box.w;
         s->tile->depth[pixel] = is_one ? samples[(uint)row * s->frame->width + (uint)column].depth : 0u;
-        s->tile->key[pixel] = NO_KEY;
+        s->tile->patch_u[pixel] = NOBODY;
+        s->tile->v_draw[pixel] = NOBODY;
     }
 }
 
-static bool is_before(Draw a, Draw b) {
-    if (a.patch_id != b.patch_id) {
-        return a.patch_id < b.patch_id;
-    }
-    return a.u != b.u ? a.u < b.u : a.v < b.v;
-}
-
-// Ranks `count` listed draws, from number `first` of the list on, in the order of (patch, u, v).
-static void rank_all(__local Tile *tile, __global const Draw *draws, uint first, uint count, uint lane) {
+// Ranks `count` listed draws, from number `first` of the list on.
+static void give_ranks(const Sampler *s, uint count, uint lane) {
+    __local Tile *tile = s->tile;
     for (uint slot = lane; slot < count; slot += GROUP) {
-        const uint index = tile->list[first + slot];
-        const Draw mine = draws[index];
-        uint before = 0u;
+        const uint index = tile->list[s->first + slot], patch_id = s->draws[index].patch_id;
+        uint before = 0u, smaller = 0u;
         for (uint other = 0u; other < count; other++) {
-            before += is_before(draws[tile->list[first + other]], mine) ? 1u : 0u;
+            const uint its = tile->list[s->first + other];
+            before += its < index ? 1u : 0u;
+            smaller += s->draws[its].patch_id < patch_id ? 1u : 0u;
         }
         tile->rank[slot] = before;
+        tile->patch_rank[slot] = smaller;
         tile->order[before] = index;
     }
 }
 
 // Samples the items of the listed draws, every 64th a work-item.
-static void sample_all(Sampler *s, uint kind, uint first, uint count, uint lane) {
+static void sample_all(Sampler *s, uint kind, uint count, uint lane) {
     const uint all = items(s->frame);
     const uint slots = GROUP / all, tasks = GROUP % all;
     uint slot = lane / all, task = lane % all;
     while (slot < count) {
-        const uint index = s->tile->list[first + slot], base = grid_base(s->frame, index);
+        const uint index = s->tile->list[s->first + slot], base = grid_base(s->frame, index);
         const Item item = item_of(s->frame, s->grids[flags_place(index)], task);
-        const uint key = (uint)s->tile->rank[slot] << CELL_BITS | item.cell;
+        const uint key = slot << CELL_BITS | item.cell;
         if (item.exists && kind == KIND_NEAR) {
             sample_near(s, base, item, key);
         } else if (item.exists) {
@@ -86,57 +83,63 @@ static void sample_all(Sampler *s, uint kind, uint first, uint count, uint lane)
     }
 }
 
-static void resolve_hits(__local Tile *tile, uint lane) {
+static void compare_hits(const Sampler *s, uint lane) {
+    __local Tile *tile = s->tile;
     for (uint hit = lane; hit < tile->hits; hit += GROUP) {
         const uint place = tile->hit_place[hit];
-        resolve_hit(tile, place >> PIXEL_SHIFT, tile->hit_depth[hit], place & ((1u << PIXEL_SHIFT) - 1u));
+        compare(s, place >> PIXEL_SHIFT, tile->hit_depth[hit], place & ((1u << PIXEL_SHIFT) - 1u));
     }
 }
 
-// Shows the candidates of the tile's pixels that are nearer than what is stored.
-static void resolve(const Sampler *s, __global const Draw *draws, __global Sample *samples,
-                    __global Colour *colours, uint lane) {
+// Shows the candidate of a pixel if it is nearer than what is stored.
+static void resolve_pixel(const Sampler *s, uint pixel, uint at, __global Sample *samples,
+                          __global Colour *colours) {
+    __local const Tile *tile = s->tile;
+    const uint index = tile->order[tile->v_draw[pixel] & ((1u << RANK_BITS) - 1u)];
+    const Surface surface = surface_of(s->draws[index]);
+    const uint u = tile->patch_u[pixel] & (PARAM_ONE - 1u), v = tile->v_draw[pixel] >> RANK_BITS;
+    const Sample found = {tile->depth[pixel], surface.patch_id, u, v};
+    if (nearer(found, samples[at])) {
+        const Place place = new_place((u - surface.u) / (u_size(surface) >> rate_bits(s->frame)),
+                                      (v - surface.v) / (v_size(surface) >> rate_bits(s->frame)));
+        samples[at] = found;
+        colours[at] = colour_of(s->frame, s->grids, grid_base(s->frame, index), place);
+    }
+}
+
+static void resolve(const Sampler *s, __global Sample *samples, __global Colour *colours, uint lane) {
     for (uint pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
-        const uint key = s->tile->key[pixel];
-        if (key != NO_KEY) {
-            const uint index = s->tile->order[key >> CELL_BITS];
-            const uint cell = key & ((1u << CELL_BITS) - 1u);
+        if (s->tile->patch_u[pixel] != NOBODY) {
             const uint column = s->box.x + pixel % TILE, row = s->box.z + pixel / TILE;
-            const uint at = row * s->frame->width + column;
-            const Sample found = sample_of(s->frame, surface_of(draws[index]), cell, s->tile->depth[pixel]);
-            if (nearer(found, samples[at])) {
-                samples[at] = found;
-                colours[at] = colour_of(s->frame, s->grids, grid_base(s->frame, index), cell);
-            }
-            s->tile->key[pixel] = NO_KEY;
+            resolve_pixel(s, pixel, row * s->frame->width + column, samples, colours);
+            s->tile->patch_u[pixel] = NOBODY;
+            s->tile->v_draw[pixel] = NOBODY;
         }
     }
 }
 
-// Depths, then keys, then what has become visible, LISTED draws at a time.
-static void sample_listed(Sampler *s, uint kind, __global const Draw *draws, __global Sample *samples,
-                          __global Colour *colours, uint lane) {
+// Depths, who has them, then what has become visible, LISTED draws at a time.
+static void sample_listed(Sampler *s, uint kind, __global Sample *samples, __global Colour *colours, uint lane) {
     const uint listed = s->tile->listed;
-    for (uint first = 0u; first < listed; first += LISTED) {
-        const uint count = listed - first < LISTED ? listed - first : LISTED;
-        rank_all(s->tile, draws, first, count, lane);
-        if (first == 0u) {
+    for (s->first = 0u; s->first < listed; s->first += LISTED) {
+        const uint count = listed - s->first < LISTED ? listed - s->first : LISTED;
+        give_ranks(s, count, lane);
+        if (s->first == 0u) {
             recall(s, samples, lane);
         }
         if (lane == 0u) {
             s->tile->hits = 0u;
         }
         barrier(CLK_LOCAL_MEM_FENCE);
-        for (uint time = 0u; time < 2u; time++) {
-            s->second_time = time == 1u;
-            if (s->second_time && s->tile->hits <= HITS) {
-                resolve_hits(s->tile, lane);
+        for (s->turn = 0u; s->turn < 3u; s->turn++) {
+            if (s->turn > 0u && s->tile->hits <= HITS) {
+                compare_hits(s, lane);
             } else {
-                sample_all(s, kind, first, count, lane);
+                sample_all(s, kind, count, lane);
             }
             barrier(CLK_LOCAL_MEM_FENCE);
         }
-        resolve(s, draws, samples, colours, lane);
+        resolve(s, samples, colours, lane);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
 }
@@ -148,8 +151,7 @@ static void tiles(__constant Frame *frame, uint kind, __global const Draw *all_d
     if (grids[HEAD_KINDS + kind - 1u] == 0u) {
         return;
     }
-    __global const Draw *draws = all_draws + grids[HEAD_START];
-    Sampler s = {frame, grids, tile, tile_box(frame), false};
+    Sampler s = {frame, grids, all_draws + grids[HEAD_START], tile, tile_box(frame), 0u, 0u};
     if (lane == 0u) {
         tile->blocks_listed = 0u;
         tile->listed = 0u;
@@ -159,7 +161,7 @@ static void tiles(__constant Frame *frame, uint kind, __global const Draw *all_d
     barrier(CLK_LOCAL_MEM_FENCE);
     list_draws(&s, kind, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    sample_listed(&s, kind, draws, samples, colours, lane);
+    sample_listed(&s, kind, samples, colours, lane);
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
