@@ -58,13 +58,22 @@ static void clip_by(__constant Frame *frame, uint plane, const Polygon *polygon,
     }
 }
 
+// Corner by corner: a compiler is known that loses corners when it copies the struct as a whole.
+static void copy(const Polygon *from, Polygon *to) {
+    to->count = from->count;
+    for (uint index = 0u; index < MAX_CORNERS; index++) {
+        to->corners[index] = from->corners[index];
+    }
+}
+
 static void clip(__constant Frame *frame, float3 a, float3 b, float3 c, Polygon *polygon) {
     polygon->count = 0u;
     push(polygon, a);
     push(polygon, b);
     push(polygon, c);
     for (uint plane = 0u; plane < PLANES; plane++) {
-        const Polygon before = *polygon;
+        Polygon before;
+        copy(polygon, &before);
         clip_by(frame, plane, &before, polygon);
     }
 }

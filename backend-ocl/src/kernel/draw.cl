@@ -132,14 +132,16 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
                 __global const Draw *draws, __global uint *grids) {
     __local Grid grid;
     const uint lane = get_local_id(0), index = get_group_id(0);
-    if (index >= grids[HEAD_COUNT]) {
-        return;
-    }
-    const Draw draw = draws[grids[HEAD_START] + index];
+    const bool is_one = index < grids[HEAD_COUNT];
+    // Where there is no draw, the address of one all the same: compilers may load first and branch later.
+    const Draw draw = draws[is_one ? grids[HEAD_START] + index : 0u];
     const Surface surface = surface_of(draw);
     __global const Patch *patch = patches + surface.patch_id;
     __global const Object *object = objects + patch->object;
     const uint base = grid_base(frame, index);
+    if (!is_one) {
+        return;
+    }
     prepare(frame, object, patch, surface, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     dice_and_shade(frame, object, surface, &grid, grids, base, lane);
