@@ -84,7 +84,8 @@ pub fn render_on<D: Device>(
     let room = room_on(&device, &options.frame);
     let sizes = chosen_sizes(scene, options, room)?;
     let notes = note_on(options, &sizes, room).into_iter().collect();
-    let plan = FramePlan::new(frame, sizes.patches, sizes.objects, sizes.batch).map_err(Error::Plan)?;
+    let plan = FramePlan::new(frame, sizes.patches, sizes.objects, sizes.batch);
+    let plan = plan.and_then(|plan| plan.with_faces(sizes.faces)).map_err(Error::Plan)?;
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::Device(error.to_string());
     let buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
@@ -114,8 +115,9 @@ fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room) -> Result<Si
         Batch::Surfaces(batch) => (batch, u64::MAX),
         Batch::Memory(bytes) => (DEFAULT_BATCH, bytes),
     };
-    let (patches, objects) = (count(scene.patch_count()), count(scene.objects.len()));
-    let sizes = Sizes { patches, objects, batch, levels, width, height }.checked();
+    let (patches, faces) = (count(scene.patch_count()), count(scene.gregory_count()));
+    let objects = count(scene.objects.len());
+    let sizes = Sizes { patches, faces, objects, batch, levels, width, height }.checked();
     sizes.and_then(|sizes| sizes.fitted(Room { bytes, ..room })).map_err(Error::Plan)
 }
 

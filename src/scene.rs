@@ -7,6 +7,7 @@ use micropoly_core::abi::{Frame, MAX_COORDINATE, Object, Patch};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 
 use crate::error::{Error, Result};
+use crate::gregory::GregoryPatch;
 use crate::{bpt, mscene, scene_file};
 
 /// A bicubic Bézier patch: 16 control points, index `4·i + j` with `i` along u.
@@ -26,8 +27,10 @@ impl BezierPatch {
 /// Patches that share a transform and a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneObject {
-    /// Its patches, in object space.
+    /// Its Bézier patches, in object space.
     pub patches: Vec<BezierPatch>,
+    /// Its Gregory patches, in object space.
+    pub gregory: Vec<GregoryPatch>,
     /// Object space to world space.
     pub to_world: DAffine3,
     /// Its looks.
@@ -58,8 +61,21 @@ pub struct DeviceScene {
     pub frame: Frame,
     /// Transforms and materials.
     pub objects: Vec<Object>,
-    /// All patches, object by object.
+    /// All patches, object by object, and behind them the face points of Gregory patches, a record each.
     pub patches: Vec<Patch>,
+}
+
+impl SceneObject {
+    /// Number of its patches.
+    #[must_use]
+    pub fn patch_count(&self) -> usize {
+        self.patches.len() + self.gregory.len()
+    }
+
+    fn points(&self) -> impl Iterator<Item = [f32; 3]> {
+        let bezier = self.patches.iter().flat_map(|patch| patch.points);
+        bezier.chain(self.gregory.iter().flat_map(|patch| patch.points))
+    }
 }
 
 impl Scene {
@@ -91,7 +107,8 @@ impl Scene {
     /// [`Error::Scene`] if the patches lie too far out to be seen at all.
     pub fn around(name: String, patches: Vec<BezierPatch>) -> Result<Self> {
         let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5 };
-        let objects = vec![SceneObject { patches, to_world: DAffine3::IDENTITY, material }];
+        let objects =
+            vec![SceneObject { patches, gregory: Vec::new(), to_world: DAffine3::IDENTITY, material }];
         let (low, high) = bounds_of(&objects);
         let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = if radius > 0.0 { radius } else { 1.0 };
@@ -112,7 +129,13 @@ impl Scene {
     /// Number of patches of all objects.
     #[must_use]
     pub fn patch_count(&self) -> usize {
-        self.objects.iter().map(|object| object.patches.len()).sum()
+        self.objects.iter().map(SceneObject::patch_count).sum()
+    }
+
+    /// Number of Gregory patches among them.
+    #[must_use]
+    pub fn gregory_count(&self) -> usize {
+        self.objects.iter().map(|object| object.gregory.len()).sum()
     }
 
     /// Corners of the box around all control points, in world space.
@@ -150,27 +173,34 @@ impl Scene {
                 "near must be 1e-6 or more, fov between 0 and 180 degrees",
             ));
         }
-        let mut patches = Vec::with_capacity(self.patch_count());
+        let count = self.patch_count();
+        let (mut patches, mut faces) = (Vec::with_capacity(count + self.gregory_count()), Vec::new());
         let mut objects = Vec::with_capacity(self.objects.len());
         for (index, object) in self.objects.iter().enumerate() {
             let placed = self.camera.object(object.to_world, &object.material);
             check_extent(&placed, object)?;
             objects.push(placed);
-            patches.extend(object.patches.iter().map(|patch| device_patch(patch, index as u32)));
+            let index = index as u32;
+            patches.extend(object.patches.iter().map(|patch| device_patch(patch.points, index, 0)));
+            for patch in &object.gregory {
+                patches.push(device_patch(patch.net(), index, (count + faces.len()) as u32));
+                faces.push(patch.faces(index));
+            }
         }
+        patches.append(&mut faces);
         Ok(DeviceScene { frame: self.camera.frame(options, self.ambient, &self.lights), objects, patches })
     }
 }
 
-fn device_patch(patch: &BezierPatch, object: u32) -> Patch {
-    let axis = |k: usize| patch.points.map(|point| point[k]);
-    Patch { x: axis(0), y: axis(1), z: axis(2), object }
+fn device_patch(points: [[f32; 3]; 16], object: u32, faces: u32) -> Patch {
+    let axis = |k: usize| points.map(|point| point[k]);
+    Patch { x: axis(0), y: axis(1), z: axis(2), object, faces }
 }
 
 fn bounds_of(objects: &[SceneObject]) -> (DVec3, DVec3) {
     let mut corners = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for object in objects {
-        for point in object.patches.iter().flat_map(|patch| patch.points) {
+        for point in object.points() {
             let point = object.to_world.transform_point3(Vec3::from(point).as_dvec3());
             corners = (corners.0.min(point), corners.1.max(point));
         }
@@ -197,7 +227,7 @@ fn check_extent(placed: &Object, object: &SceneObject) -> Result<()> {
         let parts = [m[row] * x, m[row + 1] * y, m[row + 2] * z, m[row + 3]];
         parts.iter().map(|part| f64::from(part.abs())).sum::<f64>()
     };
-    for point in object.patches.iter().flat_map(|patch| patch.points) {
+    for point in object.points() {
         for furthest in [reach(0, point), reach(4, point), reach(8, point)] {
             if furthest.is_nan() || furthest > f64::from(MAX_COORDINATE) {
                 let problem = format!("an object reaches {furthest:e} units from the eye; 1e12 is the limit");

@@ -10,6 +10,7 @@ use toml::Spanned;
 
 use crate::error::{Error, Result, line_at, read_text, utf8};
 use crate::generate::{self, Generator};
+use crate::gregory::GregoryPatch;
 use crate::image::linear_from_srgb;
 use crate::scene::{BezierPatch, Scene, SceneObject};
 
@@ -57,6 +58,7 @@ struct LightTable {
 struct ObjectTable {
     geometry: Option<Spanned<String>>,
     patches: Option<PatchList>,
+    gregory: Option<PatchList>,
     generate: Option<Spanned<GenerateTable>>,
     #[serde(default)]
     reverse: bool,
@@ -225,19 +227,31 @@ impl Place<'_> {
 
     fn object(&self, table: &Spanned<ObjectTable>) -> Result<SceneObject> {
         let object = table.get_ref();
-        let mut patches = match (&object.geometry, &object.patches, &object.generate) {
-            (Some(file), None, None) => self.geometry(file)?,
-            (None, Some(list), None) => self.inline_patches(list)?,
-            (None, None, Some(generator)) => self.generated(generator)?,
-            _ => {
-                let problem = "an object has exactly one of geometry, patches and generate";
-                return Err(self.wrong(table, problem, "for example geometry = \"teapot.bpt\""));
-            }
-        };
+        let (mut patches, mut gregory) = self.shape(table)?;
         if object.reverse {
             patches.iter_mut().for_each(BezierPatch::reverse);
+            gregory.iter_mut().for_each(GregoryPatch::reverse);
         }
-        Ok(SceneObject { patches, to_world: self.transform(object)?, material: self.material(object)? })
+        let (to_world, material) = (self.transform(object)?, self.material(object)?);
+        Ok(SceneObject { patches, gregory, to_world, material })
+    }
+
+    fn shape(&self, table: &Spanned<ObjectTable>) -> Result<(Vec<BezierPatch>, Vec<GregoryPatch>)> {
+        let ObjectTable { geometry, patches, gregory, generate, .. } = table.get_ref();
+        match (geometry, patches, gregory, generate) {
+            (Some(file), None, None, None) => Ok((self.geometry(file)?, Vec::new())),
+            (None, Some(list), None, None) => {
+                Ok((self.inline_patches(list, |points| BezierPatch { points })?, Vec::new()))
+            }
+            (None, None, Some(list), None) => {
+                Ok((Vec::new(), self.inline_patches(list, |points| GregoryPatch { points })?))
+            }
+            (None, None, None, Some(generator)) => Ok((self.generated(generator)?, Vec::new())),
+            _ => {
+                let problem = "an object has exactly one of geometry, patches, gregory and generate";
+                Err(self.wrong(table, problem, "for example geometry = \"teapot.bpt\""))
+            }
+        }
     }
 
     fn geometry(&self, file: &Spanned<String>) -> Result<Vec<BezierPatch>> {
@@ -253,21 +267,29 @@ impl Place<'_> {
         crate::bpt::load(&path)
     }
 
-    fn inline_patches(&self, list: &PatchList) -> Result<Vec<BezierPatch>> {
+    fn inline_patches<const POINTS: usize, P>(
+        &self,
+        list: &PatchList,
+        kind: impl Fn([[f32; 3]; POINTS]) -> P,
+    ) -> Result<Vec<P>> {
         let mut patches = Vec::with_capacity(list.get_ref().len());
         for patch in list.get_ref() {
-            let points: [[f64; 3]; 16] = patch.get_ref().as_slice().try_into().map_err(|_| {
+            let points: [[f64; 3]; POINTS] = patch.get_ref().as_slice().try_into().map_err(|_| {
                 let problem = format!("a patch of {} points", patch.get_ref().len());
-                self.wrong(patch, problem, "a bicubic patch has 16 points")
+                self.wrong(patch, problem, format!("a patch of this kind has {POINTS} points"))
             })?;
             let points = points.map(|point| point.map(|value| value as f32));
             if !points.iter().flatten().all(|value| value.is_finite()) {
                 return Err(self.wrong(patch, "a coordinate is not finite", "replace NaN and infinities"));
             }
-            patches.push(BezierPatch { points });
+            patches.push(kind(points));
         }
         if patches.is_empty() {
-            return Err(self.wrong(list, "the list of patches is empty", "add a patch of 16 points"));
+            return Err(self.wrong(
+                list,
+                "the list of patches is empty",
+                format!("add a patch of {POINTS} points"),
+            ));
         }
         Ok(patches)
     }

@@ -82,6 +82,8 @@ pub struct Options {
     pub threads: usize,
     /// Were grids skipped that show only their back?
     pub cull_backfaces: bool,
+    /// Rules by which surfaces were culled and split.
+    pub profile: &'static str,
 }
 
 impl Stats {
@@ -129,5 +131,6 @@ fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
         },
         threads: options.threads,
         cull_backfaces: frame.cull_backfaces,
+        profile: frame.profile.name(),
     }
 }

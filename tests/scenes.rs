@@ -36,7 +36,12 @@ fn ball(camera: Camera) -> Scene {
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.5),
         lights: vec![Light::Point { position: glam::DVec3::ZERO, colour: glam::Vec3::splat(0.5) }],
-        objects: vec![SceneObject { patches, to_world: glam::DAffine3::IDENTITY, material }],
+        objects: vec![SceneObject {
+            patches,
+            gregory: Vec::new(),
+            to_world: glam::DAffine3::IDENTITY,
+            material,
+        }],
     }
 }
 

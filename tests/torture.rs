@@ -31,7 +31,12 @@ fn extreme_scene(random: &mut fastrand::Rng) -> Option<Scene> {
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.1),
         lights: vec![light],
-        objects: vec![SceneObject { patches, to_world: glam::DAffine3::IDENTITY, material }],
+        objects: vec![SceneObject {
+            patches,
+            gregory: Vec::new(),
+            to_world: glam::DAffine3::IDENTITY,
+            material,
+        }],
     })
 }
 
@@ -48,6 +53,7 @@ fn extreme_scenes_render_and_do_not_depend_on_the_batch() {
             rate: 1 << random.u32(0..=4),
             levels: random.u32(1..=16),
             cull_backfaces: random.u8(0..4) == 0,
+            ..FrameOptions::default()
         };
         let with = |batch: u32, threads: usize| {
             let options =

@@ -6,13 +6,14 @@ use micropoly_core::abi::{
     Colour, Control, Draw, Frame, Limits, Object, Patch, Question, Sample, Slot, Surface, Verdict,
 };
 use micropoly_core::kernel::dice::{Grid, dice};
+use micropoly_core::kernel::gregory::dice as dice_gregory;
 use micropoly_core::kernel::known_answers::answer as known_answer;
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::scan::scan as scan_batch;
 use micropoly_core::kernel::shade::shade;
 use micropoly_core::kernel::split::{Outcome, split as split_one};
-use micropoly_core::kernel::{bound::bound as bound_one, seed as seeding, take as taking};
-use micropoly_core::patch::Net;
+use micropoly_core::kernel::{bound::bound_any, seed as seeding, take as taking};
+use micropoly_core::patch::{Faces, Net};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
@@ -89,8 +90,7 @@ fn bound_chunk(
     verdicts: &mut [Verdict],
 ) {
     for (surface, verdict) in surfaces.iter().zip(verdicts) {
-        let patch = &patches[surface.patch_id as usize];
-        *verdict = bound_one(frame, patch, &objects[patch.object as usize], *surface);
+        *verdict = bound_any(frame, objects, patches, *surface);
     }
 }
 
@@ -185,7 +185,13 @@ fn draw_band(scene: Scene<'_>, grid: &mut Grid, band: &mut Band<'_>) {
         let patch = &scene.patches[draw.patch_id as usize];
         let object = &scene.objects[patch.object as usize];
         let net = Net::in_eye_space(patch, object);
-        dice(&net, scene.frame, draw.surface(), grid);
+        match patch.faces {
+            0 => dice(&net, scene.frame, draw.surface(), grid),
+            record => {
+                let faces = Faces::in_eye_space(&scene.patches[record as usize], object);
+                dice_gregory(&net, &faces, scene.frame, draw.surface(), grid);
+            }
+        }
         shade(scene.frame, object, grid);
         sample(scene.frame, *draw, grid, band);
     }

@@ -2,7 +2,7 @@
 //!
 //! Runs on every OpenCL device there is; without one it fails, since nothing would be tested.
 
-use micropoly::{FrameOptions, Scene};
+use micropoly::{FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
 use micropoly_conformance::{Case, run};
@@ -13,8 +13,15 @@ use micropoly_core::known;
 /// Everything that an OpenCL compiler may be told to break.
 const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
 const SCENES: [&str; 4] = ["teapot", "eyesplit", "spheres", "still-life"];
-const SMALL: FrameOptions =
-    FrameOptions { width: 320, height: 180, bound: 8.0, rate: 8, levels: 23, cull_backfaces: false };
+const SMALL: FrameOptions = FrameOptions {
+    width: 320,
+    height: 180,
+    bound: 8.0,
+    rate: 8,
+    levels: 23,
+    cull_backfaces: false,
+    profile: Profile::Conservative,
+};
 
 fn case(scene: &str, options: &FrameOptions) -> Case {
     let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));

@@ -4,13 +4,14 @@
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, Control, DRAW_LIMITED, Draw, Frame, Limits, Object, Patch, Sample, Shared, Slot, Surface,
-    Verdict,
+    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_WEBER, Frame, Limits, MAX_LEVELS, Object, Patch,
+    Sample, Shared, Slot, Surface, Verdict,
 };
-use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
-use micropoly_core::kernel::bound::bound;
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
+use micropoly_core::kernel::bound::bound_any;
 use micropoly_core::kernel::scan::scan;
 use micropoly_core::known::question;
+use micropoly_core::patch::gregory::INNER;
 use micropoly_core::stage::{Items, Stage};
 
 use crate::stages::Input;
@@ -99,6 +100,7 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
         rate: 1 << random.u32(0..=4),
         levels: random.u32(1..=41),
         cull_backfaces: random.bool(),
+        profile: if random.u8(0..4) == 0 { Profile::Weber2014 } else { Profile::Conservative },
     };
     let frame = camera.frame(&options, Vec3::splat(0.1), &lights[..random.usize(0..=2)]);
     let object = |gloss: u32, specular: f32| {
@@ -133,8 +135,8 @@ fn patch(random: &mut fastrand::Rng) -> Patch {
     patch
 }
 
-fn surface(random: &mut fastrand::Rng, patches: usize, deepest: u32) -> Surface {
-    let mut surface = Surface::root(random.u32(0..patches as u32));
+fn surface(random: &mut fastrand::Rng, patches: u32, deepest: u32) -> Surface {
+    let mut surface = Surface::root(random.u32(0..patches));
     for _ in 0..random.u32(0..=deepest) {
         let along_u = surface.v_level() >= 20 || (surface.u_level() < 20 && random.bool());
         let halves = if along_u { surface.halves_u() } else { surface.halves_v() };
@@ -143,17 +145,40 @@ fn surface(random: &mut fastrand::Rng, patches: usize, deepest: u32) -> Surface 
     surface
 }
 
+/// Number of patches of a scene; every third is a Gregory patch in half of all scenes.
+const PATCHES: u32 = 24;
+
 fn scene(random: &mut fastrand::Rng) -> (Frame, Vec<Object>, Vec<Patch>) {
     let (frame, objects) = view(random);
-    let patches = (0..24).map(|_| patch(random)).collect();
+    let mut patches: Vec<Patch> = (0..PATCHES).map(|_| patch(random)).collect();
+    if random.bool() {
+        for index in (0..PATCHES as usize).step_by(3) {
+            patches[index].faces = patches.len() as u32;
+            patches.push(faces(random, &patches[index]));
+        }
+    }
     (frame, objects, patches)
+}
+
+/// Face points around the inner points of a patch: far from them, near them, or all there.
+fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
+    let mut record = Patch { object: patch.object, ..Patch::default() };
+    let rough = [0.0, 0.05, 0.6][random.usize(0..3)];
+    for l in 0..8 {
+        let at = INNER[l % 4];
+        let mut jitter = || (random.f32() * 2.0 - 1.0) * rough;
+        record.x[l] = patch.x[at] + jitter();
+        record.y[l] = patch.y[at] + jitter();
+        record.z[l] = patch.z[at] + jitter();
+    }
+    record
 }
 
 fn bounds(random: &mut fastrand::Rng) -> Parts {
     let (frame, objects, patches) = scene(random);
     let (base, taken) = (random.u32(0..300), random.u32(0..2000));
     let deepest = [4, 12, 40][random.usize(0..3)];
-    let stack: Vec<Surface> = (0..base + taken).map(|_| surface(random, patches.len(), deepest)).collect();
+    let stack: Vec<Surface> = (0..base + taken).map(|_| surface(random, PATCHES, deepest)).collect();
     let control = Control { base, taken, stack: base + taken, ..Control::default() };
     let room = (taken + random.u32(1..100)) as usize;
     let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
@@ -172,7 +197,7 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
 /// A batch of surfaces with verdicts, and counts before it.
 fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
     let taken = random.u32(1..3000);
-    let surfaces = (0..taken).map(|_| surface(random, 24, 18)).collect();
+    let surfaces = (0..taken).map(|_| surface(random, PATCHES, 18)).collect();
     let only = random.u32(0..8);
     let code = |random: &mut fastrand::Rng| {
         if only <= DRAW_LIMITED { only } else { random.u32(CULL..=DRAW_LIMITED) }
@@ -214,15 +239,15 @@ fn splits(random: &mut fastrand::Rng) -> Parts {
 fn draws(random: &mut fastrand::Rng) -> Parts {
     let (mut frame, objects, patches) = scene(random);
     let deepest = [3, 8, 14][random.usize(0..3)];
-    frame.levels = 1; // everything that is not culled is drawn, however large
+    // Whatever is not culled is drawn, however large; but Weber's rules cull what is at the deepest level.
+    frame.levels = if frame.flags & FLAG_WEBER == 0 { 1 } else { MAX_LEVELS };
     let mut draws = Vec::new();
     for _ in 0..400 {
-        let surface = surface(random, patches.len(), deepest);
-        let patch = &patches[surface.patch_id as usize];
-        let verdict = bound(&frame, patch, &objects[patch.object as usize], surface);
+        let surface = surface(random, PATCHES, deepest);
+        let verdict = bound_any(&frame, &objects, &patches, surface);
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {
-            if verdict.code != CULL && draws.len() < 60 {
+            if matches!(verdict.code, DRAW | DRAW_LIMITED) && draws.len() < 60 {
                 draws.push(Draw::new(surface, verdict));
             }
         }

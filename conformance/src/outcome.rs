@@ -2,6 +2,8 @@
 
 use micropoly_core::abi::{Colour, Frame, Object, Patch, Sample};
 use micropoly_core::backend::Device;
+use micropoly_core::error::PlanError;
+use micropoly_core::patch::gregory::patch_count;
 use micropoly_core::render::{Buffers, FramePlan};
 use serde::Serialize;
 
@@ -17,8 +19,21 @@ pub struct Case {
     pub frame: Frame,
     /// Transforms and materials.
     pub objects: Vec<Object>,
-    /// All patches.
+    /// All patches, and behind them the face points of Gregory patches.
     pub patches: Vec<Patch>,
+}
+
+impl Case {
+    /// Plans its frame in batches of `batch` surfaces.
+    ///
+    /// # Errors
+    /// What the plan reports.
+    pub fn plan(&self, batch: u32) -> Result<FramePlan, PlanError> {
+        let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
+        let patches = patch_count(&self.patches);
+        let plan = FramePlan::new(self.frame, count(patches), count(self.objects.len()), batch)?;
+        plan.with_faces(count(self.patches.len() - patches))
+    }
 }
 
 /// What must be equal on every device, for every batch and number of threads.
@@ -47,8 +62,7 @@ pub struct Outcome {
 /// # Errors
 /// What the plan or the device reports.
 pub fn run<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Outcome, D::Error> {
-    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-    let plan = FramePlan::new(case.frame, count(case.patches.len()), count(case.objects.len()), batch)?;
+    let plan = case.plan(batch)?;
     let buffers = plan.prepare(device, &case.objects, &case.patches)?;
     let counts = plan.run(device, &buffers, |_| {})?;
     let (samples, covered) = hash_samples(device, &buffers, plan.sizes().pixels())?;

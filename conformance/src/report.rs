@@ -2,7 +2,6 @@
 
 use micropoly_core::abi::Colour;
 use micropoly_core::backend::Device;
-use micropoly_core::render::FramePlan;
 use micropoly_core::stage::Stage;
 use serde::Serialize;
 
@@ -124,8 +123,7 @@ pub fn check_case<R: Device, D: Device>(
 /// # Errors
 /// What the plan or the device reports.
 pub fn colours<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Vec<Colour>, D::Error> {
-    let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-    let plan = FramePlan::new(case.frame, count(case.patches.len()), count(case.objects.len()), batch)?;
+    let plan = case.plan(batch)?;
     let buffers = plan.prepare(device, &case.objects, &case.patches)?;
     plan.run(device, &buffers, |_| {})?;
     let mut colours = vec![Colour::default(); plan.sizes().pixels() as usize];

@@ -82,6 +82,8 @@ shared_constants! {
     const PARALLEL: f32 = 1.0 / (1 << 24) as f32;
     /// A seam compares lengths with the bound and a little more, so that rounding never leaves a chord out.
     const SEAM_ALLOWANCE: f32 = 1.0 + 1.0 / 256.0;
+    /// A curve that is nowhere farther than 1 from another is longer by this much at most, as found by trial.
+    const WOBBLES: f32 = 4.0;
     /// Smallest squared length of a vector that is normalised for shading.
     const SHADE_TINY: f32 = 1.0e-30;
 
@@ -98,6 +100,18 @@ shared_constants! {
 
     /// Bit of [`Frame::flags`]: skip grids none of whose micropolygons face the eye.
     const FLAG_CULL_BACKFACES: u32 = 1;
+    /// Bit of [`Frame::flags`]: bound and blend as Weber's program does, to compare with his figures.
+    const FLAG_WEBER: u32 = 2;
+    /// Weber profile: nothing farther than this is drawn.
+    const WEBER_FAR: f32 = 1000.0;
+    /// Weber profile: pixels around the image in which surfaces are kept.
+    const WEBER_MARGIN: f32 = 32.0;
+    /// Weber profile: smallest distance, before or behind the eye, by which a coordinate is divided.
+    const WEBER_TINY: f32 = 1.0e-12;
+    /// Weber profile: pixel offsets are limited to this magnitude before lengths are taken.
+    const WEBER_FAR_OFF: f32 = 1.0e18;
+    /// Weber profile: a range is never halved more often than this, so that its middle is a parameter.
+    const WEBER_SPLITS: u32 = PARAM_BITS - 1;
 }
 
 /// Largest number of levels `k`: level 0 is a whole patch, level `k - 1` is never split.
@@ -219,7 +233,8 @@ macro_rules! shared_structs {
 }
 
 shared_structs! {
-    /// A bicubic Bézier patch: 16 control points in object space, index `4·i + j` with `i` along `u`.
+    /// A bicubic patch: 16 control points in object space, index `4·i + j` with `i` along `u`; or the face
+    /// points of a Gregory patch (see [`crate::patch::gregory`]), in the order of [`crate::patch::Faces`].
     struct Patch {
         /// x of the control points, in object units.
         x: [f32; 16],
@@ -229,6 +244,9 @@ shared_structs! {
         z: [f32; 16],
         /// Index of the [`Object`] that the patch belongs to.
         object: u32,
+        /// 0 for a Bézier patch; for a Gregory patch the index of the record that holds its face points, behind
+        /// all patches. Its inner control points are then the means of two face points each.
+        faces: u32,
     }
 
     /// Where an object stands and what it is made of.

@@ -2,7 +2,7 @@
 //!
 //! Trigonometry comes from `libm`, so that a scene gives the same bits on every platform.
 
-use crate::abi::{Frame, MAX_FOCAL, MAX_LIGHTS, MIN_NEAR, Object};
+use crate::abi::{FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, MAX_FOCAL, MAX_LIGHTS, MIN_NEAR, Object};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// A perspective camera.
@@ -46,6 +46,34 @@ pub struct Material {
     pub gloss: u32,
 }
 
+/// Rules by which surfaces are culled, split and drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Profile {
+    /// Conservative: nothing visible is lost ([`crate::kernel::bound`]).
+    #[default]
+    Conservative,
+    /// As Weber's program does it, to compare with his figures: has holes ([`crate::kernel::weber`]).
+    Weber2014,
+}
+
+impl Profile {
+    /// Its name, on the command line and in statistics.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Conservative => "conservative",
+            Self::Weber2014 => "weber2014",
+        }
+    }
+
+    const fn flag(self) -> u32 {
+        match self {
+            Self::Conservative => 0,
+            Self::Weber2014 => FLAG_WEBER,
+        }
+    }
+}
+
 /// How a frame is to be rendered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
@@ -61,11 +89,21 @@ pub struct FrameOptions {
     pub levels: u32,
     /// Skip grids that show only their back.
     pub cull_backfaces: bool,
+    /// Rules by which surfaces are culled, split and drawn.
+    pub profile: Profile,
 }
 
 impl Default for FrameOptions {
     fn default() -> Self {
-        Self { width: 1280, height: 720, bound: 8.0, rate: 8, levels: 23, cull_backfaces: false }
+        Self {
+            width: 1280,
+            height: 720,
+            bound: 8.0,
+            rate: 8,
+            levels: 23,
+            cull_backfaces: false,
+            profile: Profile::Conservative,
+        }
     }
 }
 
@@ -110,7 +148,7 @@ impl Camera {
             bound: options.bound,
             levels: options.levels,
             rate: options.rate,
-            flags: if options.cull_backfaces { crate::abi::FLAG_CULL_BACKFACES } else { 0 },
+            flags: options.profile.flag() | if options.cull_backfaces { FLAG_CULL_BACKFACES } else { 0 },
             ambient: ambient.to_array(),
             ..Frame::default()
         };

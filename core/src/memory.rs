@@ -50,6 +50,8 @@ pub const fn stack_min(n: u64, k: u64) -> u64 {
 pub struct Sizes {
     /// Patches of the scene.
     pub patches: u32,
+    /// Records of face points behind them, one a Gregory patch.
+    pub faces: u32,
     /// Objects of the scene.
     pub objects: u32,
     /// Surfaces a batch.
@@ -70,6 +72,7 @@ impl Sizes {
     pub const fn checked(self) -> Result<Self, PlanError> {
         let limits = [
             ("number of patches", self.patches, 1, u32::MAX / 2),
+            ("number of Gregory patches", self.faces, 0, self.patches),
             ("number of objects", self.objects, 1, u32::MAX / 2),
             ("batch", self.batch, 1, MAX_BATCH),
             ("number of levels (max-depth)", self.levels, 1, MAX_LEVELS),
@@ -139,8 +142,14 @@ impl Sizes {
             + self.draw_entries() * size_of::<Draw>() as u64
     }
 
+    /// Entries of the buffer of patches.
+    #[must_use]
+    pub const fn patch_entries(&self) -> u64 {
+        self.patches as u64 + self.faces as u64
+    }
+
     const fn patch_bytes(&self) -> u64 {
-        self.patches as u64 * size_of::<Patch>() as u64
+        self.patch_entries() * size_of::<Patch>() as u64
     }
 
     /// Name and bytes of the largest buffer but the patches'.

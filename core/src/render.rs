@@ -73,8 +73,19 @@ impl FramePlan {
     /// [`PlanError::Invalid`] if a size or option is out of range.
     pub const fn new(frame: Frame, patches: u32, objects: u32, batch: u32) -> Result<Self, PlanError> {
         let Frame { width, height, levels, .. } = frame;
-        match (Sizes { patches, objects, batch, levels, width, height }).checked() {
+        match (Sizes { patches, faces: 0, objects, batch, levels, width, height }).checked() {
             Ok(sizes) => Ok(Self { sizes, frame }),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The same frame where so many of the patches are Gregory patches.
+    ///
+    /// # Errors
+    /// [`PlanError::Invalid`] if there are more of these than patches.
+    pub const fn with_faces(self, faces: u32) -> Result<Self, PlanError> {
+        match (Sizes { faces, ..self.sizes }).checked() {
+            Ok(sizes) => Ok(Self { sizes, ..self }),
             Err(error) => Err(error),
         }
     }
@@ -85,7 +96,7 @@ impl FramePlan {
         &self.sizes
     }
 
-    /// Reserves all buffers and uploads the scene.
+    /// Reserves all buffers and uploads the scene; records of face points lie behind all patches.
     ///
     /// # Errors
     /// What the device reports.
@@ -107,7 +118,7 @@ impl FramePlan {
         let buffers = Buffers {
             frame: reserve("frame", Frame::LAYOUT, 1)?,
             objects: reserve("objects", Object::LAYOUT, u64::from(sizes.objects))?,
-            patches: reserve("patches", Patch::LAYOUT, u64::from(sizes.patches))?,
+            patches: reserve("patches", Patch::LAYOUT, sizes.patch_entries())?,
             limits: reserve("limits", Limits::LAYOUT, 1)?,
             control: reserve("control", Control::LAYOUT, 1)?,
             stack: reserve("stack", Surface::LAYOUT, sizes.stack_entries())?,

@@ -6,7 +6,7 @@ use bytesize::ByteSize;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::MAX_BATCH;
-use micropoly::{Backend, Batch, FrameOptions, RenderOptions};
+use micropoly::{Backend, Batch, FrameOptions, Profile, RenderOptions};
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -120,6 +120,9 @@ pub(crate) struct FrameArguments {
     #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true,
           value_parser = value_parser!(u16).range(0..=1024))]
     threads: u16,
+    /// Rules by which surfaces are culled and split: those of Weber's program are for comparison, and leave holes.
+    #[arg(long, value_enum, default_value_t = ProfileChoice::Conservative)]
+    profile: ProfileChoice,
     /// Skip grids of micropolygons that show only their back (closed objects look the same).
     #[arg(long)]
     cull_backfaces: bool,
@@ -140,8 +143,27 @@ impl FrameArguments {
             rate: self.dice,
             levels: self.max_depth,
             cull_backfaces: self.cull_backfaces,
+            profile: self.profile.into(),
         };
         RenderOptions { frame, batch, threads: usize::from(self.threads), ..RenderOptions::default() }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProfileChoice {
+    /// Nothing visible is lost.
+    Conservative,
+    /// As Weber's program of 2014 does it.
+    #[value(name = "weber2014")]
+    Weber2014,
+}
+
+impl From<ProfileChoice> for Profile {
+    fn from(choice: ProfileChoice) -> Self {
+        match choice {
+            ProfileChoice::Conservative => Self::Conservative,
+            ProfileChoice::Weber2014 => Self::Weber2014,
+        }
     }
 }
 

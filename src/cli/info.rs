@@ -15,7 +15,8 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<()> {
     let point_lights = scene.lights.iter().filter(|light| matches!(light, Light::Point { .. })).count();
     println!("scene        {}", scene.name);
     println!("objects      {}", scene.objects.len());
-    println!("patches      {} bicubic Bézier", scene.patch_count());
+    let gregory = scene.gregory_count();
+    println!("patches      {} bicubic Bézier, {gregory} Gregory", scene.patch_count() - gregory);
     println!(
         "bounds       {:.4} {:.4} {:.4}  to  {:.4} {:.4} {:.4}",
         low.x, low.y, low.z, high.x, high.y, high.z

@@ -10,7 +10,7 @@ use micropoly_core::camera::{Camera, Light, Material};
 use super::model::{CameraEntry, LightEntry, LightType, Mesh, MeshPatches, Mscene, ObjectEntry};
 use super::place::{Place, quoted};
 use crate::error::{Error, Result};
-use crate::scene::{BezierPatch, Scene, SceneObject};
+use crate::scene::{Scene, SceneObject};
 
 /// Most patches of all objects together: a small file can use one mesh many times.
 const MAX_PATCHES: usize = 10_000_000;
@@ -87,15 +87,18 @@ fn objects(path: &Path, file: &Mscene) -> Result<Vec<SceneObject>> {
     let mut total = 0;
     for (index, entry) in file.objects.iter().enumerate() {
         let place = Place { path, kind: "object", index, count, name: &entry.name };
-        let patches = patches(&place, mesh_of(&place, &meshes, entry)?)?;
-        total += patches.len();
+        let (patches, gregory) = match &mesh_of(&place, &meshes, entry)?.patches {
+            MeshPatches::Bezier(patches) => (patches.clone(), Vec::new()),
+            MeshPatches::Gregory(patches) => (Vec::new(), patches.clone()),
+        };
+        total += patches.len() + gregory.len();
         if total > MAX_PATCHES {
             let problem = format!("with it the scene has more than {MAX_PATCHES} patches");
             return Err(place.wrong(problem, "split the scene"));
         }
         let material = Material { colour: entry.colour, specular: 0.0, gloss: 0 };
         let to_world = entry.placement.to_world();
-        objects.push(SceneObject { patches: patches.to_vec(), to_world, material });
+        objects.push(SceneObject { patches, gregory, to_world, material });
     }
     Ok(objects)
 }
@@ -120,17 +123,4 @@ fn mesh_of<'a>(place: &Place<'_>, meshes: &Meshes<'a>, object: &ObjectEntry) -> 
         let problem = format!("there is no mesh {}", quoted(&object.mesh));
         place.wrong(problem, "name a mesh of the same file")
     })
-}
-
-/// What can be drawn of a mesh. The one place to change once kernels know Gregory patches.
-fn patches<'a>(place: &Place<'_>, mesh: &'a Mesh) -> Result<&'a [BezierPatch]> {
-    match &mesh.patches {
-        MeshPatches::Bezier(patches) => Ok(patches),
-        MeshPatches::Gregory(patches) => {
-            let name = quoted(&mesh.name);
-            let count = patches.len();
-            let problem = format!("its mesh {name} has Gregory patches ({count}), which cannot be drawn yet");
-            Err(place.wrong(problem, "export the mesh as Bézier patches (type bezier, 16 points each)"))
-        }
-    }
 }

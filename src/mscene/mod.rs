@@ -17,9 +17,7 @@ mod read;
 
 use std::path::Path;
 
-pub use model::{
-    CameraEntry, GregoryPatch, LightEntry, LightType, Mesh, MeshPatches, Mscene, ObjectEntry, Placement,
-};
+pub use model::{CameraEntry, LightEntry, LightType, Mesh, MeshPatches, Mscene, ObjectEntry, Placement};
 
 use crate::error::{Result, read_bytes};
 use crate::scene::Scene;

@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 
+use crate::gregory::GregoryPatch;
 use crate::scene::BezierPatch;
 
 /// All of a file.
@@ -15,13 +16,6 @@ pub struct Mscene {
     pub objects: Vec<ObjectEntry>,
     /// Cameras, of which the first is used.
     pub cameras: Vec<CameraEntry>,
-}
-
-/// A bicubic Gregory patch: corners `p0…3`, then `e⁺0…3`, `e⁻0…3`, `f⁺0…3`, `f⁻0…3`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GregoryPatch {
-    /// Control points in object space.
-    pub points: [[f32; 3]; 20],
 }
 
 /// Patches of one type.

@@ -7,12 +7,11 @@ use capnp::message::ReaderOptions;
 use capnp::{serialize, struct_list, text};
 use glam::{DQuat, Vec3};
 
-use super::model::{
-    CameraEntry, GregoryPatch, LightEntry, LightType, Mesh, MeshPatches, Mscene, ObjectEntry, Placement,
-};
+use super::model::{CameraEntry, LightEntry, LightType, Mesh, MeshPatches, Mscene, ObjectEntry, Placement};
 use super::mscene_capnp::{camera, light_source, mesh, object, quaternion, scene, transform, vec3};
 use super::place::Place;
 use crate::error::{Error, Result};
+use crate::gregory::GregoryPatch;
 use crate::scene::BezierPatch;
 
 const DAMAGED: &str = "copy or export the file again: it is damaged or cut short, or not a .mscene file";

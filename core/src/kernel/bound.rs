@@ -4,46 +4,190 @@
 //! is ever culled, and the control polygons are at least as long as the curves they control.
 
 use crate::abi::{
-    CULL, DRAW, DRAW_LIMITED, FAR_OFF, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING,
-    SEAM_ALLOWANCE, SPLIT_U, SPLIT_V, Surface, Verdict,
+    CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_WEBER, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING,
+    SEAM_ALLOWANCE, SPLIT_U, SPLIT_V, Surface, Verdict, WOBBLES,
 };
 use crate::kernel::project::perspective;
+use crate::kernel::weber;
 use crate::num::{add, clamp, float, floor, max, min, mul, neg, recip, sqrt, sub};
-use crate::patch::Net;
 use crate::patch::net::fold;
+use crate::patch::{Faces, Net};
 
-/// The verdict on one surface.
+/// The verdict on one surface of any patch, by the rules of the frame's profile.
+#[inline(always)]
+#[must_use]
+pub fn bound_any(frame: &Frame, objects: &[Object], patches: &[Patch], surface: Surface) -> Verdict {
+    let patch = &patches[surface.patch_id as usize];
+    let object = &objects[patch.object as usize];
+    let record = if patch.faces > 0 { Some(&patches[patch.faces as usize]) } else { None };
+    match record {
+        _ if frame.flags & FLAG_WEBER != 0 => bound_weber(frame, patch, record, object, surface),
+        Some(record) => bound_gregory(frame, patch, record, object, surface),
+        None => bound(frame, patch, object, surface),
+    }
+}
+
+/// The verdict on one surface of a Bézier patch.
 #[inline(always)]
 #[must_use]
 pub fn bound(frame: &Frame, patch: &Patch, object: &Object, surface: Surface) -> Verdict {
-    let whole = Net::in_eye_space(patch, object);
-    let slack = mul(whole.extent(), ROUNDING);
-    let part = whole.restricted(surface);
-    let nearest = neg(fold(&part.z, max));
-    let farthest = neg(fold(&part.z, min));
-    if add(farthest, slack) < frame.near {
+    judge(frame, surface, &Hull::of_bezier(patch, object, surface))
+}
+
+/// The verdict on one surface of a Gregory patch: the hull of a Bézier patch that is near it everywhere.
+#[must_use]
+pub fn bound_gregory(
+    frame: &Frame,
+    patch: &Patch,
+    record: &Patch,
+    object: &Object,
+    surface: Surface,
+) -> Verdict {
+    judge(frame, surface, &Hull::of_gregory(frame, patch, record, object, surface))
+}
+
+/// Control hull of a surface, and how far outside of it the surface can be.
+struct Hull {
+    part: Net,
+    /// What rounding can do, in eye space.
+    slack: f32,
+    /// Distance, along any axis, between the surface and the one whose hull it is.
+    spread: Option<f32>,
+}
+
+impl Hull {
+    #[inline(always)]
+    fn of_bezier(patch: &Patch, object: &Object, surface: Surface) -> Self {
+        let whole = Net::in_eye_space(patch, object);
+        let slack = mul(whole.extent(), ROUNDING);
+        Self { part: whole.restricted(surface), slack, spread: None }
+    }
+
+    #[inline(always)]
+    fn of_gregory(frame: &Frame, patch: &Patch, record: &Patch, object: &Object, surface: Surface) -> Self {
+        let mut whole = Net::in_eye_space(patch, object);
+        let faces = Faces::in_eye_space(record, object);
+        let slack = mul(max(whole.extent(), faces.extent()), ROUNDING);
+        let spread = faces.centre(&mut whole, surface, frame.flags & FLAG_WEBER != 0);
+        Self { part: whole.restricted(surface), slack, spread: Some(spread) }
+    }
+
+    #[inline(always)]
+    fn spread(&self) -> f32 {
+        self.spread.unwrap_or(0.0)
+    }
+
+    /// Smallest distance of the surface from the eye plane.
+    #[inline(always)]
+    fn nearest(&self) -> f32 {
+        sub(neg(fold(&self.part.z, max)), self.spread())
+    }
+
+    /// What the image shows of a hull that lies beyond the near plane, `nearest` away.
+    #[inline(always)]
+    fn seen(&self, frame: &Frame, nearest: f32) -> Seen {
+        let (x, y) = on_screen(frame, &self.part);
+        let scale = recip(nearest);
+        let wobble = match self.spread {
+            None => 0.0,
+            Some(spread) => {
+                let off_axis = max(largest(&x), largest(&y));
+                mul(mul(add(frame.focal, off_axis), spread), scale)
+            }
+        };
+        let margin = add(add(1.0, mul(mul(frame.focal, self.slack), scale)), wobble);
+        Seen { x, y, wobble, margin }
+    }
+}
+
+/// Control points on screen, in pixels from the optical axis.
+struct Seen {
+    x: [f32; 16],
+    y: [f32; 16],
+    /// How far the surface can be from the one that they control.
+    wobble: f32,
+    /// How far it can be outside of their hull.
+    margin: f32,
+}
+
+impl Seen {
+    /// Can any pixel's sample lie on the surface?
+    #[inline(always)]
+    fn is_in_view(&self, frame: &Frame) -> bool {
+        !PixelBox::around(frame, &self.x, &self.y, self.margin).is_empty()
+    }
+
+    /// The pixels that drawing it can touch: a seam may reach beyond the surface, by no more than the longest
+    /// border that can be drawn.
+    #[inline(always)]
+    fn pixels(&self, frame: &Frame) -> PixelBox {
+        let reach = add(self.margin, mul(frame.bound, SEAM_ALLOWANCE));
+        PixelBox::around(frame, &self.x, &self.y, reach)
+    }
+
+    /// Lengths along u and along v.
+    #[inline(always)]
+    fn extents(&self) -> (f32, f32) {
+        let more = mul(WOBBLES, self.wobble);
+        (add(length_u(&self.x, &self.y), more), add(length_v(&self.x, &self.y), more))
+    }
+}
+
+/// The verdict on the surface inside a hull.
+#[inline(always)]
+fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
+    let nearest = hull.nearest();
+    let farthest = add(neg(fold(&hull.part.z, min)), hull.spread());
+    if add(farthest, hull.slack) < frame.near {
         return verdict(CULL, PixelBox::EMPTY);
     }
     if nearest < frame.near {
-        if beside_the_view(frame, &part, slack) {
+        if beside_the_view(frame, &hull.part, add(hull.slack, hull.spread())) {
             return verdict(CULL, PixelBox::EMPTY);
         }
-        let code = refine(frame, surface, depth_spans(&part), None);
+        let code = refine(frame, surface, depth_spans(&hull.part), None);
         return verdict(code, PixelBox::whole(frame));
     }
-    let (x, y) = on_screen(frame, &part);
-    let margin = add(1.0, mul(mul(frame.focal, slack), recip(nearest)));
-    if PixelBox::around(frame, &x, &y, margin).is_empty() {
+    let seen = hull.seen(frame, nearest);
+    if !seen.is_in_view(frame) {
         return verdict(CULL, PixelBox::EMPTY);
     }
-    // A seam may reach beyond the surface, by no more than the longest border that can be drawn.
-    let reach = add(margin, mul(frame.bound, SEAM_ALLOWANCE));
-    let pixels = PixelBox::around(frame, &x, &y, reach);
-    let extents = (length_u(&x, &y), length_v(&x, &y));
+    let extents = seen.extents();
     if max(extents.0, extents.1) <= frame.bound {
-        return verdict(DRAW, pixels);
+        return verdict(DRAW, seen.pixels(frame));
     }
-    verdict(refine(frame, surface, extents, Some(frame.bound)), pixels)
+    verdict(refine(frame, surface, extents, Some(frame.bound)), seen.pixels(frame))
+}
+
+/// The pixels that drawing the surface inside a hull can touch.
+#[inline(always)]
+fn pixels_of(frame: &Frame, hull: &Hull) -> PixelBox {
+    let nearest = hull.nearest();
+    if nearest < frame.near { PixelBox::whole(frame) } else { hull.seen(frame, nearest).pixels(frame) }
+}
+
+/// The verdict by the rules of Weber's program.
+fn bound_weber(
+    frame: &Frame,
+    patch: &Patch,
+    record: Option<&Patch>,
+    object: &Object,
+    surface: Surface,
+) -> Verdict {
+    let net = Net::in_eye_space(patch, object);
+    let faces = record.map(|record| Faces::in_eye_space(record, object));
+    let code = weber::code(frame, &net, faces.as_ref(), surface);
+    let hull = match record {
+        Some(record) => Hull::of_gregory(frame, patch, record, object, surface),
+        None => Hull::of_bezier(patch, object, surface),
+    };
+    verdict(code, if code == DRAW { pixels_of(frame, &hull) } else { PixelBox::EMPTY })
+}
+
+/// Largest magnitude of all sixteen.
+#[inline(always)]
+fn largest(c: &[f32; 16]) -> f32 {
+    max(fold(c, max), neg(fold(c, min)))
 }
 
 #[inline(always)]

@@ -42,7 +42,7 @@ pub struct Grid {
     /// What closes the gaps to coarser neighbours along the borders v = low, v = high, u = low, u = high.
     pub seams: [Seam; 4],
     /// Derivatives along u and along v, until they become the normal.
-    tangents: [[Lane; 3]; 2],
+    pub(super) tangents: [[Lane; 3]; 2],
 }
 
 impl Default for Grid {
@@ -88,9 +88,8 @@ impl Grid {
 /// `net` is the patch's control net in eye space.
 #[inline(always)]
 pub fn dice(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
+    prepare_grid(net, frame, surface, grid);
     let rate = frame.rate;
-    grid.stride = rate as usize + 1;
-    grid.seams = seams(net, frame, surface);
     let (step_u, step_v) = (surface.u_size() / rate, surface.v_size() / rate);
     let mut columns = [Weights::<LANES>::ZERO; BLOCKS];
     for (first, columns) in (0..=rate).step_by(LANES).zip(&mut columns) {
@@ -105,6 +104,19 @@ pub fn dice(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
             }
         }
     }
+    finish_grid(net, frame, surface, grid);
+}
+
+/// What a grid has before its vertices: their number and the seams.
+#[inline(always)]
+pub(super) fn prepare_grid(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
+    grid.stride = frame.rate as usize + 1;
+    grid.seams = seams(net, frame, surface);
+}
+
+/// Normals and snapped vertices, from positions and tangents.
+#[inline(always)]
+pub(super) fn finish_grid(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
     let flat = mul(size(net), FLAT);
     for block in grid.blocks() {
         finish(frame, block, flat, grid);

@@ -4,6 +4,7 @@
 pub mod bound;
 pub mod clip;
 pub mod dice;
+pub mod gregory;
 pub mod known_answers;
 pub mod project;
 pub mod quads;
@@ -15,3 +16,4 @@ pub mod shade;
 pub mod split;
 pub mod take;
 pub mod triangle;
+pub mod weber;
