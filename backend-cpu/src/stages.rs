@@ -6,7 +6,7 @@ use micropoly_core::abi::{
     Colour, Control, Draw, Frame, Limits, Object, Patch, Question, Sample, Slot, Surface, Verdict,
 };
 use micropoly_core::kernel::dice::{Grid, dice};
-use micropoly_core::kernel::gregory::dice as dice_gregory;
+use micropoly_core::kernel::dice_gregory::dice_gregory;
 use micropoly_core::kernel::known_answers::answer as known_answer;
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::scan::scan as scan_batch;

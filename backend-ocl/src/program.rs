@@ -20,8 +20,8 @@ macro_rules! files {
 }
 
 files! {
-    "gen.cl" "num.cl" "bezier.cl" "surface.cl" "net.cl" "project.cl" "bound.cl" "grids.cl" "dice.cl"
-    "seam.cl" "shade.cl" "triangle.cl" "clip.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl"
+    "gen.cl" "num.cl" "bezier.cl" "surface.cl" "net.cl" "gregory.cl" "project.cl" "weber.cl"
+    "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "seam.cl" "shade.cl" "triangle.cl" "clip.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl"
     "draw.cl" "tiles.cl" "seed.cl" "take.cl" "scan.cl" "split.cl" "known_answers.cl"
 }
 

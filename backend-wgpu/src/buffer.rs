@@ -1,9 +1,9 @@
 //! A block of device memory with a layout.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use micropoly_core::abi::{Layout, Shared};
+use micropoly_core::abi::{FLAG_WEBER, Frame, Layout, Patch, Shared};
 
 use crate::error::WgpuError;
 
@@ -16,6 +16,8 @@ pub struct WgpuBuffer {
     memory: wgpu::Buffer,
     /// Patches have a second piece, for those that the first has no room for.
     more: Option<wgpu::Buffer>,
+    /// Was anything ever written to it that only the kernels for any patch and profile know?
+    is_general: AtomicBool,
     allocated: Arc<AtomicU64>,
 }
 
@@ -29,12 +31,30 @@ impl WgpuBuffer {
         allocated: &Arc<AtomicU64>,
     ) -> Self {
         allocated.fetch_add(entries * layout.size as u64, Ordering::Relaxed);
-        Self { name, layout, entries, memory, more, allocated: Arc::clone(allocated) }
+        let (is_general, allocated) = (AtomicBool::new(false), Arc::clone(allocated));
+        Self { name, layout, entries, memory, more, is_general, allocated }
     }
 
     /// Number of its entries.
     pub(crate) fn entries(&self) -> u64 {
         self.entries
+    }
+
+    /// Takes note of what is written.
+    pub(crate) fn note<T: Shared>(&self, data: &[T]) {
+        let is_general = if T::LAYOUT == Patch::LAYOUT {
+            bytemuck::cast_slice::<T, Patch>(data).iter().any(|patch| patch.faces > 0)
+        } else if T::LAYOUT == Frame::LAYOUT {
+            bytemuck::cast_slice::<T, Frame>(data).iter().any(|frame| frame.flags & FLAG_WEBER != 0)
+        } else {
+            false
+        };
+        self.is_general.fetch_or(is_general, Ordering::Relaxed);
+    }
+
+    /// Does it need the kernels for any patch and profile?
+    pub(crate) fn is_general(&self) -> bool {
+        self.is_general.load(Ordering::Relaxed)
     }
 
     /// Its second piece.

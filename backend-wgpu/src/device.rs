@@ -187,7 +187,7 @@ impl WgpuDevice {
         let arranged = [b.frame, b.control, b.draws, &grids, &rounds, &groups];
         self.record(Which::ArrangeDraw, &arranged, Groups::Known(1, 1));
         let diced = [b.frame, b.objects, b.patches, b.draws, &grids, b.more_patches];
-        self.record(Which::Draw, &diced, Groups::Arranged);
+        self.record(if b.is_general { Which::DrawAny } else { Which::Draw }, &diced, Groups::Arranged);
         self.sample_tiles(b);
     }
 
@@ -242,6 +242,8 @@ struct DrawBuffers<'a> {
     image: (u32, u32),
     /// Dice rate.
     rate: u32,
+    /// Does it need the kernels for any patch and profile?
+    is_general: bool,
 }
 
 /// How many groups run.
@@ -361,6 +363,7 @@ impl Device for WgpuDevice {
 
     fn write<T: Shared>(&mut self, buffer: &WgpuBuffer, data: &[T]) -> Result<(), WgpuError> {
         let mut offset = buffer.offset_of::<T>(0, data.len())?;
+        buffer.note(data);
         self.submit(); // what was dispatched before must not see the new data
         let mut data: &[u8] = bytemuck::cast_slice(data);
         while !data.is_empty() {
@@ -394,6 +397,7 @@ impl Device for WgpuDevice {
         }
         let memories: Vec<_> = buffers.iter().map(|buffer| buffer.memory()).collect();
         let more = buffers.iter().find_map(|buffer| buffer.more());
+        let is_general = buffers.iter().any(|buffer| buffer.is_general());
         if let (Stage::Draw, Items::Image { width, height, rate }) = (stage, items) {
             let &[frame, objects, patches, control, draws, samples, colours] = &memories[..] else {
                 return Err(WgpuError::Bindings { stage: stage.name() });
@@ -412,12 +416,14 @@ impl Device for WgpuDevice {
                 room,
                 image,
                 rate,
+                is_general,
             })?;
             return self.checked();
         }
         let groups = self.groups(stage, items, buffers)?;
         let memories: Vec<_> = memories.into_iter().chain(more).collect();
-        self.record(Which::Stage(stage), &memories, groups);
+        let which = if stage == Stage::Bound && is_general { Which::BoundAny } else { Which::Stage(stage) };
+        self.record(which, &memories, groups);
         if self.pending >= MOST_PENDING {
             self.submit();
         }

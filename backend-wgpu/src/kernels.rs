@@ -24,9 +24,15 @@ files! {
     BEZIER: "bezier",
     NET: "net",
     PROJECT: "project",
+    GREGORY: "gregory",
+    WEBER: "weber",
     BOUND: "bound",
+    BOUND_BEZIER: "bound_bezier",
+    BOUND_ANY: "bound_any",
     SEAM: "seam",
     DICE: "dice",
+    DICE_BEZIER: "dice_bezier",
+    DICE_GREGORY: "dice_gregory",
     SHADE: "shade",
     TRIANGLE: "triangle",
     CLIP: "clip",
@@ -51,14 +57,18 @@ files! {
 /// The kernels: one a stage, those into which the fused stage is cut, and those that count groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// A stage other than the fused one.
+    /// A stage other than the fused one; of `bound`, what Bézier patches and our own profile need.
     Stage(Stage),
+    /// All of `bound`.
+    BoundAny,
     /// Turns a batch into a number of groups.
     Arrange,
     /// The next chunk of draws.
     ArrangeDraw,
-    /// Dices and shades a chunk.
+    /// Dices and shades a chunk, if all patches are Bézier patches.
     Draw,
+    /// Dices and shades a chunk.
+    DrawAny,
     /// The next round of the tiles.
     ArrangeTiles,
     /// Samples a chunk tile by tile.
@@ -76,10 +86,11 @@ pub enum Kind {
 
 impl Which {
     /// All kernels, in the order of [`Which::index`].
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Stage(Stage::Seed),
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
+        Self::BoundAny,
         Self::Stage(Stage::Scan),
         Self::Stage(Stage::Split),
         Self::Stage(Stage::Flush),
@@ -87,6 +98,7 @@ impl Which {
         Self::Arrange,
         Self::ArrangeDraw,
         Self::Draw,
+        Self::DrawAny,
         Self::ArrangeTiles,
         Self::Tiles(Kind::Near),
         Self::Tiles(Kind::General),
@@ -104,7 +116,9 @@ impl Which {
             Self::Stage(stage) => stage.name(),
             Self::Arrange => "arrange",
             Self::ArrangeDraw => "arrange_draw",
+            Self::BoundAny => "bound (any)",
             Self::Draw => "draw",
+            Self::DrawAny => "draw (any)",
             Self::ArrangeTiles => "arrange_tiles",
             Self::Tiles(Kind::Near) => "tiles (near)",
             Self::Tiles(Kind::General) => "tiles (general)",
@@ -116,8 +130,11 @@ impl Which {
     pub const fn stage(self) -> Option<Stage> {
         match self {
             Self::Stage(stage) => Some(stage),
+            Self::BoundAny => Some(Stage::Bound),
             Self::Arrange => None,
-            Self::ArrangeDraw | Self::Draw | Self::ArrangeTiles | Self::Tiles(_) => Some(Stage::Draw),
+            Self::ArrangeDraw | Self::Draw | Self::DrawAny | Self::ArrangeTiles | Self::Tiles(_) => {
+                Some(Stage::Draw)
+            }
         }
     }
 
@@ -127,16 +144,49 @@ impl Which {
         match self {
             Self::Stage(Stage::Seed) => &[GEN, ITEMS, SEED],
             Self::Stage(Stage::Take) => &[GEN, TAKE],
-            Self::Stage(Stage::Bound) => &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND],
+            Self::Stage(Stage::Bound) => {
+                &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND_BEZIER, BOUND]
+            }
+            Self::BoundAny => {
+                &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, GREGORY, WEBER, BOUND_ANY, BOUND]
+            }
             Self::Stage(Stage::Scan) => &[GEN, SCAN],
             Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, SPLIT],
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],
             Self::ArrangeDraw => &[GEN, GRIDS, ROUNDS, ARRANGE_DRAW],
-            Self::Stage(Stage::Draw) | Self::Draw => {
-                &[GEN, GRIDS, NUM, SURFACE, BEZIER, NET, PROJECT, TRIANGLE, DICE, SHADE, SEAM, DRAW]
-            }
+            Self::Stage(Stage::Draw) | Self::Draw => &[
+                GEN,
+                GRIDS,
+                NUM,
+                SURFACE,
+                BEZIER,
+                NET,
+                PROJECT,
+                TRIANGLE,
+                DICE,
+                DICE_BEZIER,
+                SHADE,
+                SEAM,
+                DRAW,
+            ],
+            Self::DrawAny => &[
+                GEN,
+                GRIDS,
+                NUM,
+                SURFACE,
+                BEZIER,
+                NET,
+                GREGORY,
+                PROJECT,
+                TRIANGLE,
+                DICE,
+                DICE_GREGORY,
+                SHADE,
+                SEAM,
+                DRAW,
+            ],
             Self::ArrangeTiles => &[GEN, GRIDS, ROUNDS, ARRANGE_TILES],
             Self::Tiles(Kind::Near) => {
                 &[GEN, GRIDS, NUM, SURFACE, PROJECT, TRIANGLE, SAMPLE, NEAR, ROUNDS, TILES]
@@ -155,6 +205,8 @@ impl Which {
         let write =
             |names: &[&'static str]| names.iter().map(|name| (*name, Access::Write)).collect::<Vec<_>>();
         match self {
+            Self::BoundAny => Self::Stage(Stage::Bound).bindings(),
+            Self::DrawAny => Self::Draw.bindings(),
             Self::Stage(stage) => {
                 let own = stage.bindings().iter().map(|binding| (binding.name, binding.access));
                 own.chain(more_patches(stage)).collect()

@@ -82,6 +82,8 @@ shared_constants! {
     const PARALLEL: f32 = 1.0 / (1 << 24) as f32;
     /// A seam compares lengths with the bound and a little more, so that rounding never leaves a chord out.
     const SEAM_ALLOWANCE: f32 = 1.0 + 1.0 / 256.0;
+    /// Largest value of an inner Bernstein weight, 3·t·(1 - t)².
+    const INNER_MOST: f32 = 4.0 / 9.0;
     /// A curve that is nowhere farther than 1 from another is longer by this much at most, as found by trial.
     const WOBBLES: f32 = 4.0;
     /// Smallest squared length of a vector that is normalised for shading.

@@ -103,49 +103,136 @@ static bool is_empty(PixelBox box) {
     return box.x >= box.y || box.z >= box.w;
 }
 
+// Control hull of a surface; what rounding can do; how far the surface can be from the one whose hull it is.
+typedef struct {
+    Net part;
+    float slack;
+    float spread;
+} Hull;
+
+// Control points on screen; how far the surface can be from the one they control, and from their hull.
+typedef struct {
+    float x[16];
+    float y[16];
+    float wobble;
+    float margin;
+} Seen;
+
+static float largest_of(const float *c) {
+    return max(fold_max(c), neg(fold_min(c)));
+}
+
+static void hull_of(__constant Frame *frame, Net *whole, const Faces *faces, bool is_gregory, Surface surface,
+                    Hull *hull) {
+    const uint zero = frame->zero;
+    float reach = extent(whole);
+    hull->spread = 0.0f;
+    if (is_gregory) {
+        reach = max(reach, faces_extent(faces));
+        hull->spread = centre_inner(zero, faces, whole, surface, (frame->flags & FLAG_WEBER) != 0u);
+    }
+    hull->slack = mul(reach, ROUNDING);
+    restricted(zero, whole, surface, &hull->part);
+}
+
+static float nearest_of(uint zero, const Hull *hull) {
+    return sub(neg(fold_max(hull->part.z)), hull->spread);
+}
+
+static void see(__constant Frame *frame, const Hull *hull, float nearest, Seen *seen) {
+    const uint zero = frame->zero;
+    on_screen(frame, &hull->part, seen->x, seen->y);
+    const float scale = recip(nearest);
+    const float off_axis = max(largest_of(seen->x), largest_of(seen->y));
+    seen->wobble = mul(mul(add(frame->focal, off_axis), hull->spread), scale);
+    seen->margin = add(add(1.0f, mul(mul(frame->focal, hull->slack), scale)), seen->wobble);
+}
+
+static PixelBox seen_pixels(__constant Frame *frame, const Seen *seen) {
+    const uint zero = frame->zero;
+    return box_around(frame, seen->x, seen->y, add(seen->margin, mul(frame->bound, SEAM_ALLOWANCE)));
+}
+
 // The verdict on a surface that reaches before the near plane.
-static Verdict bound_near(__constant Frame *frame, const Net *part, Surface surface, float slack) {
-    if (beside_the_view(frame, part, slack)) {
+static Verdict bound_near(__constant Frame *frame, const Hull *hull, Surface surface) {
+    const uint zero = frame->zero;
+    if (beside_the_view(frame, &hull->part, add(hull->slack, hull->spread))) {
         return new_verdict(CULL, (PixelBox)(0));
     }
-    const float2 spans = depth_spans(frame->zero, part->z);
+    const float2 spans = depth_spans(zero, hull->part.z);
     const uint code = refine(frame, surface, spans.x, spans.y, false, false);
     return new_verdict(code, (PixelBox)(0, (int)frame->width, 0, (int)frame->height));
 }
 
 // The verdict on a surface that lies beyond the near plane.
-static Verdict bound_far(__constant Frame *frame, const Net *part, Surface surface, float slack, float nearest) {
+static Verdict bound_far(__constant Frame *frame, const Hull *hull, Surface surface, float nearest) {
     const uint zero = frame->zero;
-    float x[16], y[16];
-    on_screen(frame, part, x, y);
-    const float margin = add(1.0f, mul(mul(frame->focal, slack), recip(nearest)));
-    if (is_empty(box_around(frame, x, y, margin))) {
+    Seen seen;
+    see(frame, hull, nearest, &seen);
+    if (is_empty(box_around(frame, seen.x, seen.y, seen.margin))) {
         return new_verdict(CULL, (PixelBox)(0));
     }
-    const PixelBox pixels = box_around(frame, x, y, add(margin, mul(frame->bound, SEAM_ALLOWANCE)));
-    const float u = length_u(zero, x, y), v = length_v(zero, x, y);
+    const PixelBox pixels = seen_pixels(frame, &seen);
+    const float more = mul(WOBBLES, seen.wobble);
+    const float u = add(length_u(zero, seen.x, seen.y), more), v = add(length_v(zero, seen.x, seen.y), more);
     if (max(u, v) <= frame->bound) {
         return new_verdict(DRAW, pixels);
     }
     return new_verdict(refine(frame, surface, u, v, u > frame->bound, v > frame->bound), pixels);
 }
 
-static Verdict bound(__constant Frame *frame, __global const Patch *patch, __global const Object *object,
-                     Surface surface) {
+static Verdict judge(__constant Frame *frame, const Hull *hull, Surface surface) {
     const uint zero = frame->zero;
-    Net whole, part;
-    in_eye_space(zero, patch, object, &whole);
-    const float slack = mul(extent(&whole), ROUNDING);
-    restricted(zero, &whole, surface, &part);
-    const float nearest = neg(fold_max(part.z));
-    const float farthest = neg(fold_min(part.z));
-    if (add(farthest, slack) < frame->near) {
+    const float nearest = nearest_of(zero, hull);
+    const float farthest = add(neg(fold_min(hull->part.z)), hull->spread);
+    if (add(farthest, hull->slack) < frame->near) {
         return new_verdict(CULL, (PixelBox)(0));
     }
+    return nearest < frame->near ? bound_near(frame, hull, surface) : bound_far(frame, hull, surface, nearest);
+}
+
+// The pixels that drawing the surface inside a hull can touch.
+static PixelBox pixels_of(__constant Frame *frame, const Hull *hull) {
+    const float nearest = nearest_of(frame->zero, hull);
     if (nearest < frame->near) {
-        return bound_near(frame, &part, surface, slack);
+        return (PixelBox)(0, (int)frame->width, 0, (int)frame->height);
     }
-    return bound_far(frame, &part, surface, slack, nearest);
+    Seen seen;
+    see(frame, hull, nearest, &seen);
+    return seen_pixels(frame, &seen);
+}
+
+// The verdict by the rules of Weber's program.
+static Verdict bound_weber(__constant Frame *frame, Net *net, const Faces *faces, bool is_gregory,
+                           Surface surface) {
+    const uint code = weber_code(frame, net, faces, is_gregory, surface);
+    if (code != DRAW) {
+        return new_verdict(code, (PixelBox)(0));
+    }
+    Hull hull;
+    hull_of(frame, net, faces, is_gregory, surface, &hull);
+    return new_verdict(code, pixels_of(frame, &hull));
+}
+
+// The verdict on one surface of any patch, by the rules of the frame's profile.
+static Verdict bound_any(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
+                         Surface surface) {
+    const uint zero = frame->zero;
+    __global const Patch *patch = patches + surface.patch_id;
+    __global const Object *object = objects + patch->object;
+    const bool is_gregory = patch->faces != 0u;
+    Net net;
+    Faces faces;
+    in_eye_space(zero, patch, object, &net);
+    if (is_gregory) {
+        faces_in_eye_space(zero, patches + patch->faces, object, &faces);
+    }
+    if (frame->flags & FLAG_WEBER) {
+        return bound_weber(frame, &net, &faces, is_gregory, surface);
+    }
+    Hull hull;
+    hull_of(frame, &net, &faces, is_gregory, surface, &hull);
+    return judge(frame, &hull, surface);
 }
 
 __kernel void stage_bound(__constant Frame *frame, __global const Object *objects,
@@ -155,8 +242,7 @@ __kernel void stage_bound(__constant Frame *frame, __global const Object *object
     const uint index = get_global_id(0);
     if (index < control->taken) {
         const Surface surface = stack[control->base + index];
-        __global const Patch *patch = patches + surface.patch_id;
         batch[index] = surface;
-        verdicts[index] = bound(frame, patch, objects + patch->object, surface);
+        verdicts[index] = bound_any(frame, objects, patches, surface);
     }
 }

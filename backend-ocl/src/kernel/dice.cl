@@ -19,6 +19,8 @@ typedef struct {
     float4 row_across[3u * SIDE];
     // Eye-space control net: coordinate k of control point l at 16 k + l.
     float net[48];
+    // Eye-space face points of a Gregory patch: coordinate k of point l at 8 k + l.
+    float faces[24];
     // Tangents no longer than this have vanished.
     float flat_length;
     Seam seams[4];

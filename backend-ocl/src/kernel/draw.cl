@@ -20,10 +20,13 @@ static void measure(__local Grid *grid, Vertex vertex) {
 
 // What all vertices share: the net, then the rows' curves, the columns' weights and the seams.
 static void prepare(__constant Frame *frame, __global const Object *object, __global const Patch *patch,
-                    Surface surface, __local Grid *grid, uint lane) {
+                    __global const Patch *record, Surface surface, __local Grid *grid, uint lane) {
     const uint zero = frame->zero;
     if (lane < 48u) {
         grid->net[lane] = transformed(zero, patch, object->to_eye + lane / 16u * 4u, lane % 16u);
+    }
+    if (lane < 24u) {
+        grid->faces[lane] = transformed(zero, record, object->to_eye + lane / 8u * 4u, lane % 8u);
     }
     if (lane == GROUP - 1u) {
         clear_measures(grid);
@@ -55,12 +58,16 @@ static void put_ends(__constant Frame *frame, __local Grid *grid, __global uint 
 }
 
 // Vertices and their colours.
-static void dice_and_shade(__constant Frame *frame, __global const Object *object, Surface surface,
-                           __local Grid *grid, __global uint *grids, uint base, uint lane) {
+static void dice_and_shade(__constant Frame *frame, __global const Object *object, bool is_gregory,
+                           Surface surface, __local Grid *grid, __global uint *grids, uint base, uint lane) {
     const uint stride = frame->rate + 1u;
     for (uint at = lane; at < vertices(frame); at += GROUP) {
         float3 position, normal;
-        dice(frame, surface, grid, at / stride, at % stride, &position, &normal);
+        if (is_gregory) {
+            dice_gregory(frame, surface, grid, at / stride, at % stride, &position, &normal);
+        } else {
+            dice(frame, surface, grid, at / stride, at % stride, &position, &normal);
+        }
         const Vertex vertex = project(frame, position);
         measure(grid, vertex);
         put_screen(frame, grids, base, at, vertex);
@@ -142,9 +149,9 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     if (!is_one) {
         return;
     }
-    prepare(frame, object, patch, surface, &grid, lane);
+    prepare(frame, object, patch, patches + patch->faces, surface, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    dice_and_shade(frame, object, surface, &grid, grids, base, lane);
+    dice_and_shade(frame, object, patch->faces != 0u, surface, &grid, grids, base, lane);
     put_ends(frame, &grid, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
     seek_faces(frame, &grid, grids, base, lane);

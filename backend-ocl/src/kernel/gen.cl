@@ -14,6 +14,8 @@
 #define FLAT 2.4414063e-4f
 #define PARALLEL 5.9604645e-8f
 #define SEAM_ALLOWANCE 1.0039063e0f
+#define INNER_MOST 4.4444445e-1f
+#define WOBBLES 4e0f
 #define SHADE_TINY 1e-30f
 #define CULL 0u
 #define DRAW 1u
@@ -21,12 +23,19 @@
 #define SPLIT_V 3u
 #define DRAW_LIMITED 4u
 #define FLAG_CULL_BACKFACES 1u
+#define FLAG_WEBER 2u
+#define WEBER_FAR 1e3f
+#define WEBER_MARGIN 3.2e1f
+#define WEBER_TINY 1e-12f
+#define WEBER_FAR_OFF 1e18f
+#define WEBER_SPLITS 23u
 
 typedef struct {
     float x[16];
     float y[16];
     float z[16];
     uint object;
+    uint faces;
 } Patch;
 
 typedef struct {

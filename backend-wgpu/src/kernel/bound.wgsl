@@ -18,33 +18,67 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let surface = stack[control.base + item];
     batch[item] = surface;
-    verdicts[item] = bound(surface);
+    verdicts[item] = bound_any(surface);
+}
+
+// Control hull of a surface; what rounding can do; how far the surface can be from the one whose hull it is.
+struct Hull {
+    part: Net,
+    slack: f32,
+    spread: f32,
+}
+
+// Control points on screen; how far the surface can be from the one they control, and from their hull.
+struct Seen {
+    on_screen: OnScreen,
+    wobble: f32,
+    margin: f32,
+}
+
+fn hull_of_bezier(whole: Net, surface: Surface) -> Hull {
+    return Hull(restricted(whole, surface), mul(extent(whole), ROUNDING), 0.0);
+}
+
+fn nearest_of(hull: Hull) -> f32 {
+    return sub(neg(fold_max(hull.part.z)), hull.spread);
+}
+
+fn see(hull: Hull, nearest: f32) -> Seen {
+    let seen = on_screen(hull.part);
+    let scale = recip(nearest);
+    let wobble = wobble_of(seen, hull.spread, scale);
+    let margin = add(add(1.0, mul(mul(frame.focal, hull.slack), scale)), wobble);
+    return Seen(seen, wobble, margin);
+}
+
+fn seen_pixels(seen: Seen) -> vec4<i32> {
+    return pixels_around(seen.on_screen, add(seen.margin, mul(frame.bound, SEAM_ALLOWANCE)));
 }
 
 fn bound(surface: Surface) -> Verdict {
-    let whole = in_eye_space(surface.patch_id);
-    let slack = mul(extent(whole), ROUNDING);
-    let part = restricted(whole, surface);
-    let nearest = neg(fold_max(part.z));
-    let farthest = neg(fold_min(part.z));
-    if add(farthest, slack) < frame.near {
+    return judge(surface, hull_of_bezier(in_eye_space(surface.patch_id), surface));
+}
+
+fn judge(surface: Surface, hull: Hull) -> Verdict {
+    let nearest = nearest_of(hull);
+    let farthest = add(neg(fold_min(hull.part.z)), hull.spread);
+    if add(farthest, hull.slack) < frame.near {
         return verdict(CULL, PIXELS_EMPTY);
     }
     if nearest < frame.near {
-        if beside_the_view(part, slack) {
+        if beside_the_view(hull.part, add(hull.slack, hull.spread)) {
             return verdict(CULL, PIXELS_EMPTY);
         }
-        let code = refine(surface, depth_spans(part), false);
+        let code = refine(surface, depth_spans(hull.part), false);
         return verdict(code, vec4<i32>(0, i32(frame.width), 0, i32(frame.height)));
     }
-    let seen = on_screen(part);
-    let margin = add(1.0, mul(mul(frame.focal, slack), recip(nearest)));
-    let own = pixels_around(seen, margin);
-    if own.x >= own.y || own.z >= own.w {
+    let seen = see(hull, nearest);
+    if is_empty(pixels_around(seen.on_screen, seen.margin)) {
         return verdict(CULL, PIXELS_EMPTY);
     }
-    let pixels = pixels_around(seen, add(margin, mul(frame.bound, SEAM_ALLOWANCE)));
-    let extents = vec2<f32>(length_u(seen), length_v(seen));
+    let pixels = seen_pixels(seen);
+    let more = mul(WOBBLES, seen.wobble);
+    let extents = vec2<f32>(add(length_u(seen.on_screen), more), add(length_v(seen.on_screen), more));
     if max(extents.x, extents.y) <= frame.bound {
         return verdict(DRAW, pixels);
     }

@@ -100,7 +100,7 @@ fn evaluate(row: u32, column: u32) -> Evaluated {
 fn dice(surface: Surface, object: u32, at: u32, base: u32) {
     let row = at / (frame.rate + 1u);
     let column = at % (frame.rate + 1u);
-    let evaluated = evaluate(row, column);
+    let evaluated = evaluate_any(surface, row, column);
     let vertex = project(evaluated.point);
     grid_x[at] = vertex.x;
     grid_y[at] = vertex.y;

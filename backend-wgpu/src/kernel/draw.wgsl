@@ -48,6 +48,7 @@ fn prepare(surface: Surface, lane: u32) {
     if lane < 48u {
         net[lane] = transformed(surface.patch_id, lane / 16u, lane % 16u);
     }
+    prepare_faces(surface.patch_id, lane);
     if lane == 63u {
         clear_measures();
     }

@@ -14,6 +14,8 @@ const LENGTH_TINY: f32 = 9.094947e-13f;
 const FLAT: f32 = 2.4414063e-4f;
 const PARALLEL: f32 = 5.9604645e-8f;
 const SEAM_ALLOWANCE: f32 = 1.0039063e0f;
+const INNER_MOST: f32 = 4.4444445e-1f;
+const WOBBLES: f32 = 4e0f;
 const SHADE_TINY: f32 = 1e-30f;
 const CULL: u32 = 0u;
 const DRAW: u32 = 1u;
@@ -21,12 +23,19 @@ const SPLIT_U: u32 = 2u;
 const SPLIT_V: u32 = 3u;
 const DRAW_LIMITED: u32 = 4u;
 const FLAG_CULL_BACKFACES: u32 = 1u;
+const FLAG_WEBER: u32 = 2u;
+const WEBER_FAR: f32 = 1e3f;
+const WEBER_MARGIN: f32 = 3.2e1f;
+const WEBER_TINY: f32 = 1e-12f;
+const WEBER_FAR_OFF: f32 = 1e18f;
+const WEBER_SPLITS: u32 = 23u;
 
 struct Patch {
     x: array<f32, 16>,
     y: array<f32, 16>,
     z: array<f32, 16>,
     object: u32,
+    faces: u32,
 }
 
 struct Object {

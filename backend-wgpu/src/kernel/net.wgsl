@@ -15,6 +15,15 @@ fn object_of(patch_id: u32) -> u32 {
     return patches_more[patch_id - here].object;
 }
 
+// The record of the face points of a Gregory patch, or 0.
+fn faces_of(patch_id: u32) -> u32 {
+    let here = arrayLength(&patches);
+    if patch_id < here {
+        return patches[patch_id].faces;
+    }
+    return patches_more[patch_id - here].faces;
+}
+
 fn control_point(patch_id: u32, l: u32) -> vec3<f32> {
     let here = arrayLength(&patches);
     if patch_id < here {

@@ -68,7 +68,7 @@ impl Hull {
         let mut whole = Net::in_eye_space(patch, object);
         let faces = Faces::in_eye_space(record, object);
         let slack = mul(max(whole.extent(), faces.extent()), ROUNDING);
-        let spread = faces.centre(&mut whole, surface, frame.flags & FLAG_WEBER != 0);
+        let spread = faces.centre_inner(&mut whole, surface, frame.flags & FLAG_WEBER != 0);
         Self { part: whole.restricted(surface), slack, spread: Some(spread) }
     }
 

@@ -4,7 +4,7 @@
 pub mod bound;
 pub mod clip;
 pub mod dice;
-pub mod gregory;
+pub mod dice_gregory;
 pub mod known_answers;
 pub mod project;
 pub mod quads;

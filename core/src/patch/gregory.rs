@@ -4,15 +4,13 @@
 //! the other on the border of constant v, so that the tangent planes of each border are that border's own.
 //! Border curves are those of the net alone: plain cubics, the same as a Bézier patch has.
 
-use crate::abi::{Object, PARAM_ONE, PARAM_STEP, Patch, Surface};
+use crate::abi::{INNER_MOST, Object, PARAM_ONE, PARAM_STEP, Patch, Surface};
 use crate::num::{abs, add, largest3, max, min, mul, neg, recip, scale3, sub};
 use crate::patch::Net;
 use crate::patch::bezier::param;
 
 /// Where the inner points stand in a net: 2·i + j of them is the one beside the borders u = i and v = j.
 pub const INNER: [usize; 4] = [5, 6, 9, 10];
-/// Largest value of an inner Bernstein weight, 3·t·(1 - t)².
-const INNER_MOST: f32 = 4.0 / 9.0;
 
 /// The eight face points in eye space: those of the borders of constant u, then those of constant v, each in
 /// the order of [`INNER`].
@@ -70,7 +68,7 @@ impl Faces {
 
     /// Puts inner point `m`, at this share, into a net.
     #[inline(always)]
-    pub fn put(&self, net: &mut Net, m: usize, share: f32) {
+    pub fn put_inner(&self, net: &mut Net, m: usize, share: f32) {
         let [x, y, z] = scale3(self.difference(m), share);
         let at = INNER[m];
         (net.x[at], net.y[at], net.z[at]) =
@@ -83,7 +81,7 @@ impl Faces {
     pub fn net_at(&self, net: &Net, blends: [Blend; 4]) -> Net {
         let mut at = *net;
         for (m, blend) in blends.iter().enumerate() {
-            self.put(&mut at, m, blend.share);
+            self.put_inner(&mut at, m, blend.share);
         }
         at
     }
@@ -94,14 +92,14 @@ impl Faces {
     /// `exchanged`: with the blends of [`weber_blends`].
     #[inline(always)]
     #[must_use]
-    pub fn centre(&self, net: &mut Net, surface: Surface, exchanged: bool) -> f32 {
+    pub fn centre_inner(&self, net: &mut Net, surface: Surface, exchanged: bool) -> f32 {
         let (along_u, along_v) = ((surface.u, surface.u_size()), (surface.v, surface.v_size()));
         let (first, second) = if exchanged { (along_v, along_u) } else { (along_u, along_v) };
         let mut spread = 0.0;
         for m in 0..4 {
             let (a, b) = (distances(first, m / 2), distances(second, m % 2));
             let (low, high) = (share(a.1, b.0), share(a.0, b.1));
-            self.put(net, m, mul(0.5, add(low, high)));
+            self.put_inner(net, m, mul(0.5, add(low, high)));
             let across = (distances(along_u, m / 2), distances(along_v, m % 2));
             let weight = mul(inner_weight(across.0), inner_weight(across.1));
             let half = mul(0.5, sub(high, low));

@@ -10,7 +10,7 @@ use crate::patch::{Faces, Net};
 
 /// Fills positions, normals and snapped vertices of a surface of a Gregory patch, as
 /// [`crate::kernel::dice::dice`] does of a Bézier patch.
-pub fn dice(net: &Net, faces: &Faces, frame: &Frame, surface: Surface, grid: &mut Grid) {
+pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, surface: Surface, grid: &mut Grid) {
     prepare_grid(net, frame, surface, grid);
     let rate = frame.rate;
     let (step_u, step_v) = (surface.u_size() / rate, surface.v_size() / rate);
