@@ -169,18 +169,26 @@ static IsoCurve grid_curve(__local const Grid *grid, uint row) {
     return curve;
 }
 
-// Position and unit normal of one vertex.
-static void dice(__constant Frame *frame, Surface surface, __local const Grid *grid, uint row, uint column,
-                 float3 *position, float3 *normal) {
+// Position of one vertex, and the derivatives there along u and along v.
+static void evaluate(__constant Frame *frame, __local const Grid *grid, uint row, uint column, float3 *position,
+                     float3 *du, float3 *dv) {
     const uint zero = frame->zero;
     const IsoCurve curve = grid_curve(grid, row);
     const float4 weights = grid->column_cubic[column];
     *position = blend_point(zero, &curve, weights);
-    const float3 du = blend_along(zero, &curve, grid->column_slope[column]);
-    *normal = unit_normal(zero, du, blend_across(zero, &curve, weights), grid->flat_length);
-    if (largest3(*normal) < 0.5f) {
+    *du = blend_along(zero, &curve, grid->column_slope[column]);
+    *dv = blend_across(zero, &curve, weights);
+}
+
+// Unit normal of one vertex.
+static float3 normal_from(__constant Frame *frame, Surface surface, __local const Grid *grid, uint row, uint column,
+                          float3 du, float3 dv) {
+    const uint zero = frame->zero;
+    const float3 normal = unit_normal(zero, du, dv, grid->flat_length);
+    if (largest3(normal) < 0.5f) {
         const uint u = surface.u + column * (u_size(surface) >> rate_bits(frame));
         const uint v = surface.v + row * (v_size(surface) >> rate_bits(frame));
-        *normal = normal_nearby(zero, grid->net, u, v, grid->flat_length);
+        return normal_nearby(zero, grid->net, u, v, grid->flat_length);
     }
+    return normal;
 }

@@ -62,12 +62,14 @@ static void dice_and_shade(__constant Frame *frame, __global const Object *objec
                            Surface surface, __local Grid *grid, __global uint *grids, uint base, uint lane) {
     const uint stride = frame->rate + 1u;
     for (uint at = lane; at < vertices(frame); at += GROUP) {
-        float3 position, normal;
+        const uint row = at / stride, column = at % stride;
+        float3 position, du, dv;
         if (is_gregory) {
-            dice_gregory(frame, surface, grid, at / stride, at % stride, &position, &normal);
+            evaluate_gregory(frame, surface, grid, row, column, &position, &du, &dv);
         } else {
-            dice(frame, surface, grid, at / stride, at % stride, &position, &normal);
+            evaluate(frame, grid, row, column, &position, &du, &dv);
         }
+        const float3 normal = normal_from(frame, surface, grid, row, column, du, dv);
         const Vertex vertex = project(frame, position);
         measure(grid, vertex);
         put_screen(frame, grids, base, at, vertex);

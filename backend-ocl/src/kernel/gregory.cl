@@ -1,0 +1,95 @@
+// Mirrors core/src/patch/gregory.rs: bicubic nets whose four inner points depend on u and v.
+
+// The eight face points in eye space: those of the borders of constant u, then those of constant v.
+typedef struct {
+    float x[8];
+    float y[8];
+    float z[8];
+} Faces;
+
+// Where inner point `m` stands in a net.
+static uint inner(uint m) {
+    return 5u + m % 2u + 4u * (m / 2u);
+}
+
+static void faces_in_eye_space(uint zero, __global const Patch *record, __global const Object *object,
+                               Faces *faces) {
+    for (uint l = 0u; l < 8u; l++) {
+        faces->x[l] = transformed(zero, record, object->to_eye, l);
+        faces->y[l] = transformed(zero, record, object->to_eye + 4, l);
+        faces->z[l] = transformed(zero, record, object->to_eye + 8, l);
+    }
+}
+
+static float faces_extent(const Faces *faces) {
+    float largest = 0.0f;
+    for (uint l = 0u; l < 8u; l++) {
+        largest = max(largest, max(max(abs(faces->x[l]), abs(faces->y[l])), abs(faces->z[l])));
+    }
+    return largest;
+}
+
+static float3 difference(uint zero, const Faces *faces, uint m) {
+    return (float3)(sub(faces->x[m], faces->x[4u + m]), sub(faces->y[m], faces->y[4u + m]),
+                    sub(faces->z[m], faces->z[4u + m]));
+}
+
+// Puts inner point `m`, at this share, into a net.
+static void put_inner(uint zero, const Faces *faces, Net *net, uint m, float share) {
+    const float3 moved = scale3(difference(zero, faces, m), share);
+    net->x[inner(m)] = add(faces->x[4u + m], moved.x);
+    net->y[inner(m)] = add(faces->y[4u + m], moved.y);
+    net->z[inner(m)] = add(faces->z[4u + m], moved.z);
+}
+
+// Least and largest distance of a range, start and size, from the end 0 or 1 of its parameter.
+static float2 distances(uint zero, uint2 range, uint end) {
+    if (end == 0u) {
+        return (float2)(param(zero, range.x), param(zero, range.x + range.y));
+    }
+    return (float2)(param(zero, PARAM_ONE - range.x - range.y), param(zero, PARAM_ONE - range.x));
+}
+
+// Largest inner Bernstein weight in a range of distances, or a little more.
+static float inner_weight(uint zero, float2 range) {
+    const float rest = sub(1.0f, range.x);
+    return min(INNER_MOST, mul(mul(3.0f, range.y), mul(rest, rest)));
+}
+
+static float share_at(uint zero, float a, float b) {
+    return mul(b, recip(max(add(a, b), PARAM_STEP)));
+}
+
+// The middles of all shares on a surface into the net of the whole patch; gives how far the surface can be
+// from that net's.
+static float centre_inner(uint zero, const Faces *faces, Net *net, Surface surface, bool exchanged) {
+    const uint2 along_u = (uint2)(surface.u, u_size(surface)), along_v = (uint2)(surface.v, v_size(surface));
+    const uint2 first = exchanged ? along_v : along_u, second = exchanged ? along_u : along_v;
+    float spread = 0.0f;
+    for (uint m = 0u; m < 4u; m++) {
+        const float2 a = distances(zero, first, m / 2u), b = distances(zero, second, m % 2u);
+        const float low = share_at(zero, a.y, b.x), high = share_at(zero, a.x, b.y);
+        put_inner(zero, faces, net, m, mul(0.5f, add(low, high)));
+        const float weight = mul(inner_weight(zero, distances(zero, along_u, m / 2u)),
+                                 inner_weight(zero, distances(zero, along_v, m % 2u)));
+        const float half_range = mul(0.5f, sub(high, low));
+        spread = add(spread, mul(mul(half_range, weight), largest3(difference(zero, faces, m))));
+    }
+    return spread;
+}
+
+// How inner point `m` is blended at a parameter: share of the face point of the border of constant u, and how
+// it changes along u and along v.
+static float3 blend_at(uint zero, uint m, float u, float v) {
+    const bool high_u = m / 2u != 0u, high_v = m % 2u != 0u;
+    const float a = high_u ? sub(1.0f, u) : u, b = high_v ? sub(1.0f, v) : v;
+    const float scale = recip(max(add(a, b), PARAM_STEP));
+    const float share = mul(b, scale);
+    const float along_a = neg(mul(share, scale)), along_b = mul(mul(a, scale), scale);
+    return (float3)(share, high_u ? neg(along_a) : along_a, high_v ? neg(along_b) : along_b);
+}
+
+// The blend as Weber's program has it: with u and v exchanged.
+static float3 weber_blend_at(uint zero, uint m, float u, float v) {
+    return blend_at(zero, m, v, u).xzy;
+}

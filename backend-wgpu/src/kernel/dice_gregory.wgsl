@@ -1,0 +1,99 @@
+// Mirrors core/src/kernel/dice_gregory.rs: as `dice.wgsl`, with other inner control points at each vertex.
+
+// The record of the patch's face points; 0 if it is a Bezier patch.
+var<workgroup> record: u32;
+// Eye-space face points: coordinate k of point l at 8 k + l.
+var<workgroup> faces: array<f32, 24>;
+
+fn prepare_faces(patch_id: u32, lane: u32) {
+    let found = faces_of(patch_id);
+    if lane == 0u {
+        record = found;
+    }
+    if lane < 24u {
+        faces[lane] = transformed(found, lane / 8u, lane % 8u);
+    }
+}
+
+fn evaluate_any(surface: Surface, row: u32, column: u32) -> Evaluated {
+    if record == 0u {
+        return evaluate(row, column);
+    }
+    return evaluate_gregory(surface, row, column);
+}
+
+fn blend_here(m: u32, u: f32, v: f32) -> Blend {
+    if (frame.flags & FLAG_WEBER) != 0u {
+        return weber_blend_at(m, u, v);
+    }
+    return blend_at(m, u, v);
+}
+
+// A point of a patch and its derivatives; the derivatives are the true ones, those of the blends included.
+fn evaluate_gregory(surface: Surface, row: u32, column: u32) -> Evaluated {
+    let u = param(surface.u + column * (u_size(surface) / frame.rate));
+    let v = param(surface.v + row * (v_size(surface) / frame.rate));
+    let a = blend_here(0u, u, v);
+    let b = blend_here(1u, u, v);
+    let c = blend_here(2u, u, v);
+    let d = blend_here(3u, u, v);
+    let shares = vec4<f32>(a.share, b.share, c.share, d.share);
+    let along_u = vec4<f32>(a.along_u, b.along_u, c.along_u, d.along_u);
+    let along_v = vec4<f32>(a.along_v, b.along_v, c.along_v, d.along_v);
+    let x = gregory_coordinate(0u, u, v, shares, along_u, along_v);
+    let y = gregory_coordinate(1u, u, v, shares, along_u, along_v);
+    let z = gregory_coordinate(2u, u, v, shares, along_u, along_v);
+    return Evaluated(vec3<f32>(x.x, y.x, z.x), vec3<f32>(x.y, y.y, z.y), vec3<f32>(x.z, y.z, z.z));
+}
+
+// Inner point `m`, one coordinate: its point for the border of constant v, and what the other differs by.
+fn face_pair(k: u32, m: u32) -> vec2<f32> {
+    let of_v = faces[8u * k + 4u + m];
+    return vec2<f32>(of_v, sub(faces[8u * k + m], of_v));
+}
+
+fn gregory_coordinate(
+    k: u32, u: f32, v: f32, shares: vec4<f32>, along_u: vec4<f32>, along_v: vec4<f32>,
+) -> vec3<f32> {
+    let cubic_u = cubic(u);
+    let cubic_v = cubic(v);
+    let slope_u = cubic_slope(u);
+    let slope_v = cubic_slope(v);
+    let a = face_pair(k, 0u);
+    let b = face_pair(k, 1u);
+    let c = face_pair(k, 2u);
+    let d = face_pair(k, 3u);
+    let row0 = net_row(k, 0u);
+    let outer1 = net_row(k, 1u);
+    let outer2 = net_row(k, 2u);
+    let row3 = net_row(k, 3u);
+    let row1 = vec4<f32>(
+        outer1.x, add(a.x, mul(a.y, shares.x)), add(b.x, mul(b.y, shares.y)), outer1.w);
+    let row2 = vec4<f32>(
+        outer2.x, add(c.x, mul(c.y, shares.z)), add(d.x, mul(d.y, shares.w)), outer2.w);
+    let moved = vec4<f32>(
+        mul(a.y, mul(cubic_u.y, cubic_v.y)),
+        mul(b.y, mul(cubic_u.y, cubic_v.z)),
+        mul(c.y, mul(cubic_u.z, cubic_v.y)),
+        mul(d.y, mul(cubic_u.z, cubic_v.z)),
+    );
+    let curve = vec4<f32>(
+        blend4(cubic_v, row0), blend4(cubic_v, row1), blend4(cubic_v, row2), blend4(cubic_v, row3));
+    let across = vec4<f32>(
+        blend3(slope_v, steps(row0)),
+        blend3(slope_v, steps(row1)),
+        blend3(slope_v, steps(row2)),
+        blend3(slope_v, steps(row3)),
+    );
+    return vec3<f32>(
+        blend4(cubic_u, curve),
+        add(blend3(slope_u, steps(curve)), change(along_u, moved)),
+        add(blend4(cubic_u, across), change(along_v, moved)),
+    );
+}
+
+// What moving inner points add to a derivative.
+fn change(along: vec4<f32>, moved: vec4<f32>) -> f32 {
+    let first = add(add(0.0, mul(along.x, moved.x)), mul(along.y, moved.y));
+    return add(add(first, mul(along.z, moved.z)), mul(along.w, moved.w));
+}
