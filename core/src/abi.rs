@@ -84,8 +84,8 @@ shared_constants! {
     const SEAM_ALLOWANCE: f32 = 1.0 + 1.0 / 256.0;
     /// Largest value of an inner Bernstein weight, 3·t·(1 - t)².
     const INNER_MOST: f32 = 4.0 / 9.0;
-    /// A curve that is nowhere farther than 1 from another is longer by this much at most, as found by trial.
-    const WOBBLES: f32 = 4.0;
+    /// From one of four control points to the next, as a share of a parameter range.
+    const THIRD: f32 = 1.0 / 3.0;
     /// Smallest squared length of a vector that is normalised for shading.
     const SHADE_TINY: f32 = 1.0e-30;
 

@@ -103,23 +103,32 @@ static bool is_empty(PixelBox box) {
     return box.x >= box.y || box.z >= box.w;
 }
 
-// Control hull of a surface; what rounding can do; how far the surface can be from the one whose hull it is.
+// Control hull of a surface; what rounding can do; how far the surface can be from the one whose hull it is, and
+// another net, whose lengths are the surface's.
 typedef struct {
     Net part;
+    Net follower;
     float slack;
     float spread;
 } Hull;
 
-// Control points on screen; how far the surface can be from the one they control, and from their hull.
+// Control points on screen, and how far the surface can be outside of their hull.
 typedef struct {
     float x[16];
     float y[16];
-    float wobble;
     float margin;
 } Seen;
 
 static float largest_of(const float *c) {
     return max(fold_max(c), neg(fold_min(c)));
+}
+
+static void copy_net(const Net *from, Net *to) {
+    for (uint l = 0u; l < 16u; l++) {
+        to->x[l] = from->x[l];
+        to->y[l] = from->y[l];
+        to->z[l] = from->z[l];
+    }
 }
 
 static void hull_of(__constant Frame *frame, Net *whole, const Faces *faces, bool is_gregory, Surface surface,
@@ -133,6 +142,10 @@ static void hull_of(__constant Frame *frame, Net *whole, const Faces *faces, boo
     }
     hull->slack = mul(reach, ROUNDING);
     restricted(zero, whole, surface, &hull->part);
+    if (is_gregory) {
+        copy_net(&hull->part, &hull->follower);
+        follow(zero, faces, &hull->follower, surface, (frame->flags & FLAG_WEBER) != 0u);
+    }
 }
 
 static float nearest_of(uint zero, const Hull *hull) {
@@ -144,8 +157,8 @@ static void see(__constant Frame *frame, const Hull *hull, float nearest, Seen *
     on_screen(frame, &hull->part, seen->x, seen->y);
     const float scale = recip(nearest);
     const float off_axis = max(largest_of(seen->x), largest_of(seen->y));
-    seen->wobble = mul(mul(add(frame->focal, off_axis), hull->spread), scale);
-    seen->margin = add(add(1.0f, mul(mul(frame->focal, hull->slack), scale)), seen->wobble);
+    const float wobble = mul(mul(add(frame->focal, off_axis), hull->spread), scale);
+    seen->margin = add(add(1.0f, mul(mul(frame->focal, hull->slack), scale)), wobble);
 }
 
 static PixelBox seen_pixels(__constant Frame *frame, const Seen *seen) {
@@ -165,7 +178,8 @@ static Verdict bound_near(__constant Frame *frame, const Hull *hull, Surface sur
 }
 
 // The verdict on a surface that lies beyond the near plane.
-static Verdict bound_far(__constant Frame *frame, const Hull *hull, Surface surface, float nearest) {
+static Verdict bound_far(__constant Frame *frame, const Hull *hull, bool is_gregory, Surface surface,
+                         float nearest) {
     const uint zero = frame->zero;
     Seen seen;
     see(frame, hull, nearest, &seen);
@@ -173,22 +187,27 @@ static Verdict bound_far(__constant Frame *frame, const Hull *hull, Surface surf
         return new_verdict(CULL, (PixelBox)(0));
     }
     const PixelBox pixels = seen_pixels(frame, &seen);
-    const float more = mul(WOBBLES, seen.wobble);
-    const float u = add(length_u(zero, seen.x, seen.y), more), v = add(length_v(zero, seen.x, seen.y), more);
+    if (is_gregory) {
+        on_screen(frame, &hull->follower, seen.x, seen.y);
+    }
+    const float u = length_u(zero, seen.x, seen.y), v = length_v(zero, seen.x, seen.y);
     if (max(u, v) <= frame->bound) {
         return new_verdict(DRAW, pixels);
     }
     return new_verdict(refine(frame, surface, u, v, u > frame->bound, v > frame->bound), pixels);
 }
 
-static Verdict judge(__constant Frame *frame, const Hull *hull, Surface surface) {
+static Verdict judge(__constant Frame *frame, const Hull *hull, bool is_gregory, Surface surface) {
     const uint zero = frame->zero;
     const float nearest = nearest_of(zero, hull);
     const float farthest = add(neg(fold_min(hull->part.z)), hull->spread);
     if (add(farthest, hull->slack) < frame->near) {
         return new_verdict(CULL, (PixelBox)(0));
     }
-    return nearest < frame->near ? bound_near(frame, hull, surface) : bound_far(frame, hull, surface, nearest);
+    if (nearest < frame->near) {
+        return bound_near(frame, hull, surface);
+    }
+    return bound_far(frame, hull, is_gregory, surface, nearest);
 }
 
 // The pixels that drawing the surface inside a hull can touch.
@@ -232,7 +251,7 @@ static Verdict bound_any(__constant Frame *frame, __global const Object *objects
     }
     Hull hull;
     hull_of(frame, &net, &faces, is_gregory, surface, &hull);
-    return judge(frame, &hull, surface);
+    return judge(frame, &hull, is_gregory, surface);
 }
 
 __kernel void stage_bound(__constant Frame *frame, __global const Object *objects,

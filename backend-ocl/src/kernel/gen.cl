@@ -15,7 +15,7 @@
 #define PARALLEL 5.9604645e-8f
 #define SEAM_ALLOWANCE 1.0039063e0f
 #define INNER_MOST 4.4444445e-1f
-#define WOBBLES 4e0f
+#define THIRD 3.3333334e-1f
 #define SHADE_TINY 1e-30f
 #define CULL 0u
 #define DRAW 1u

@@ -42,12 +42,18 @@ static void put_inner(uint zero, const Faces *faces, Net *net, uint m, float sha
     net->z[inner(m)] = add(faces->z[4u + m], moved.z);
 }
 
-// Least and largest distance of a range, start and size, from the end 0 or 1 of its parameter.
-static float2 distances(uint zero, uint2 range, uint end) {
+// Distances of the low and high end of a range, start and size, from the end 0 or 1 of its parameter.
+static float2 ends(uint zero, uint2 range, uint end) {
     if (end == 0u) {
         return (float2)(param(zero, range.x), param(zero, range.x + range.y));
     }
-    return (float2)(param(zero, PARAM_ONE - range.x - range.y), param(zero, PARAM_ONE - range.x));
+    return (float2)(param(zero, PARAM_ONE - range.x), param(zero, PARAM_ONE - range.x - range.y));
+}
+
+// The smaller of the two first.
+static float2 distances(uint zero, uint2 range, uint end) {
+    const float2 both = ends(zero, range, end);
+    return end == 0u ? both : both.yx;
 }
 
 // Largest inner Bernstein weight in a range of distances, or a little more.
@@ -60,6 +66,11 @@ static float share_at(uint zero, float a, float b) {
     return mul(b, recip(max(add(a, b), PARAM_STEP)));
 }
 
+// The middle of all shares at distances in two ranges.
+static float middle(uint zero, float2 a, float2 b) {
+    return mul(0.5f, add(share_at(zero, a.y, b.x), share_at(zero, a.x, b.y)));
+}
+
 // The middles of all shares on a surface into the net of the whole patch; gives how far the surface can be
 // from that net's.
 static float centre_inner(uint zero, const Faces *faces, Net *net, Surface surface, bool exchanged) {
@@ -69,13 +80,51 @@ static float centre_inner(uint zero, const Faces *faces, Net *net, Surface surfa
     for (uint m = 0u; m < 4u; m++) {
         const float2 a = distances(zero, first, m / 2u), b = distances(zero, second, m % 2u);
         const float low = share_at(zero, a.y, b.x), high = share_at(zero, a.x, b.y);
-        put_inner(zero, faces, net, m, mul(0.5f, add(low, high)));
+        put_inner(zero, faces, net, m, middle(zero, a, b));
         const float weight = mul(inner_weight(zero, distances(zero, along_u, m / 2u)),
                                  inner_weight(zero, distances(zero, along_v, m % 2u)));
         const float half_range = mul(0.5f, sub(high, low));
         spread = add(spread, mul(mul(half_range, weight), largest3(difference(zero, faces, m))));
     }
     return spread;
+}
+
+static float between(uint zero, float low, float high, float t) {
+    return add(low, mul(sub(high, low), t));
+}
+
+// One of the four components.
+static float component(float4 all, uint k) {
+    return k < 2u ? (k == 0u ? all.x : all.y) : (k == 2u ? all.z : all.w);
+}
+
+// Moves the control points of a surface to where the shares at its corners, and between them, take them.
+static void follow(uint zero, const Faces *faces, Net *part, Surface surface, bool exchanged) {
+    const uint2 along_u = (uint2)(surface.u, u_size(surface)), along_v = (uint2)(surface.v, v_size(surface));
+    const uint2 first = exchanged ? along_v : along_u, second = exchanged ? along_u : along_v;
+    float4 weights_u[4], weights_v[4];
+    blossom(zero, surface.u, surface.u + u_size(surface), weights_u);
+    blossom(zero, surface.v, surface.v + v_size(surface), weights_v);
+    for (uint m = 0u; m < 4u; m++) {
+        const float2 a = ends(zero, first, m / 2u), b = ends(zero, second, m % 2u);
+        const float3 from = difference(zero, faces, m);
+        const float fixed_share =
+            middle(zero, distances(zero, first, m / 2u), distances(zero, second, m % 2u));
+        const float4 corners = (float4)(share_at(zero, a.x, b.x), share_at(zero, a.x, b.y),
+                                        share_at(zero, a.y, b.x), share_at(zero, a.y, b.y));
+        for (uint l = 0u; l < 16u; l++) {
+            const float over_u = mul(number((int)(l / 4u)), THIRD), over_v = mul(number((int)(l % 4u)), THIRD);
+            const float s = exchanged ? over_v : over_u, t = exchanged ? over_u : over_v;
+            const float here = between(zero, between(zero, corners.x, corners.y, t),
+                                       between(zero, corners.z, corners.w, t), s);
+            const float weight = mul(component(weights_u[l / 4u], inner(m) / 4u),
+                                     component(weights_v[l % 4u], inner(m) % 4u));
+            const float3 moved = scale3(from, mul(weight, sub(here, fixed_share)));
+            part->x[l] = add(part->x[l], moved.x);
+            part->y[l] = add(part->y[l], moved.y);
+            part->z[l] = add(part->z[l], moved.z);
+        }
+    }
 }
 
 // How inner point `m` is blended at a parameter: share of the face point of the border of constant u, and how

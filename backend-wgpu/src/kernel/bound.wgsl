@@ -28,10 +28,9 @@ struct Hull {
     spread: f32,
 }
 
-// Control points on screen; how far the surface can be from the one they control, and from their hull.
+// Control points on screen, and how far the surface can be outside of their hull.
 struct Seen {
     on_screen: OnScreen,
-    wobble: f32,
     margin: f32,
 }
 
@@ -48,7 +47,7 @@ fn see(hull: Hull, nearest: f32) -> Seen {
     let scale = recip(nearest);
     let wobble = wobble_of(seen, hull.spread, scale);
     let margin = add(add(1.0, mul(mul(frame.focal, hull.slack), scale)), wobble);
-    return Seen(seen, wobble, margin);
+    return Seen(seen, margin);
 }
 
 fn seen_pixels(seen: Seen) -> vec4<i32> {
@@ -77,8 +76,7 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
         return verdict(CULL, PIXELS_EMPTY);
     }
     let pixels = seen_pixels(seen);
-    let more = mul(WOBBLES, seen.wobble);
-    let extents = vec2<f32>(add(length_u(seen.on_screen), more), add(length_v(seen.on_screen), more));
+    let extents = extents_of(seen.on_screen);
     if max(extents.x, extents.y) <= frame.bound {
         return verdict(DRAW, pixels);
     }

@@ -45,12 +45,18 @@ fn inner_point(of_u: vec3<f32>, of_v: vec3<f32>, share: f32) -> vec3<f32> {
     return add3(of_v, scale3(difference(of_u, of_v), share));
 }
 
-// Least and largest distance of a range, start and size, from the end 0 or 1 of its parameter.
-fn distances(range: vec2<u32>, end: u32) -> vec2<f32> {
+// Distances of the low and high end of a range, start and size, from the end 0 or 1 of its parameter.
+fn ends(range: vec2<u32>, end: u32) -> vec2<f32> {
     if end == 0u {
         return vec2<f32>(param(range.x), param(range.x + range.y));
     }
-    return vec2<f32>(param(PARAM_ONE - range.x - range.y), param(PARAM_ONE - range.x));
+    return vec2<f32>(param(PARAM_ONE - range.x), param(PARAM_ONE - range.x - range.y));
+}
+
+// The smaller of the two first.
+fn distances(range: vec2<u32>, end: u32) -> vec2<f32> {
+    let both = ends(range, end);
+    return select(both.yx, both, end == 0u);
 }
 
 // Largest inner Bernstein weight in a range of distances, or a little more.
@@ -61,6 +67,11 @@ fn inner_weight(range: vec2<f32>) -> f32 {
 
 fn share_at(a: f32, b: f32) -> f32 {
     return mul(b, recip(max(add(a, b), PARAM_STEP)));
+}
+
+// The middle of all shares at distances in two ranges.
+fn middle(a: vec2<f32>, b: vec2<f32>) -> f32 {
+    return mul(0.5, add(share_at(a.y, b.x), share_at(a.x, b.y)));
 }
 
 // A net, and how far the surface can be from the one that it controls.
@@ -82,7 +93,7 @@ fn centre_inner(all: Faces, whole: Net, surface: Surface, exchanged: bool) -> Ce
         let b = distances(second, m % 2u);
         let low = share_at(a.y, b.x);
         let high = share_at(a.x, b.y);
-        let point = inner_point(faces.points[m], faces.points[4u + m], mul(0.5, add(low, high)));
+        let point = inner_point(faces.points[m], faces.points[4u + m], middle(a, b));
         out.net.x[inner(m)] = point.x;
         out.net.y[inner(m)] = point.y;
         out.net.z[inner(m)] = point.z;
@@ -93,6 +104,45 @@ fn centre_inner(all: Faces, whole: Net, surface: Surface, exchanged: bool) -> Ce
         out.spread = add(out.spread, mul(mul(half, weight), size));
     }
     return out;
+}
+
+fn between(low: f32, high: f32, t: f32) -> f32 {
+    return add(low, mul(sub(high, low), t));
+}
+
+// Moves the control points of a surface to where the shares at its corners, and between them, take them.
+fn follow(all: Faces, from_part: Net, surface: Surface, exchanged: bool) -> Net {
+    let along_u = vec2<u32>(surface.u, u_size(surface));
+    let along_v = vec2<u32>(surface.v, v_size(surface));
+    let first = select(along_u, along_v, exchanged);
+    let second = select(along_v, along_u, exchanged);
+    var weights_u = blossom(surface.u, surface.u + u_size(surface));
+    var weights_v = blossom(surface.v, surface.v + v_size(surface));
+    var faces = all;
+    var part = from_part;
+    for (var m = 0u; m < 4u; m++) {
+        let a = ends(first, m / 2u);
+        let b = ends(second, m % 2u);
+        let away = difference(faces.points[m], faces.points[4u + m]);
+        let fixed = middle(distances(first, m / 2u), distances(second, m % 2u));
+        let at00 = share_at(a.x, b.x);
+        let at01 = share_at(a.x, b.y);
+        let at10 = share_at(a.y, b.x);
+        let at11 = share_at(a.y, b.y);
+        for (var l = 0u; l < 16u; l++) {
+            let over_u = mul(float(i32(l / 4u)), THIRD);
+            let over_v = mul(float(i32(l % 4u)), THIRD);
+            let s = select(over_u, over_v, exchanged);
+            let t = select(over_v, over_u, exchanged);
+            let here = between(between(at00, at01, t), between(at10, at11, t), s);
+            let weight = mul(weights_u.rows[l / 4u][inner(m) / 4u], weights_v.rows[l % 4u][inner(m) % 4u]);
+            let moved = scale3(away, mul(weight, sub(here, fixed)));
+            part.x[l] = add(part.x[l], moved.x);
+            part.y[l] = add(part.y[l], moved.y);
+            part.z[l] = add(part.z[l], moved.z);
+        }
+    }
+    return part;
 }
 
 // The blend of inner point `m` at a parameter.

@@ -5,7 +5,7 @@
 
 use crate::abi::{
     CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_WEBER, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING,
-    SEAM_ALLOWANCE, SPLIT_U, SPLIT_V, Surface, Verdict, WOBBLES,
+    SEAM_ALLOWANCE, SPLIT_U, SPLIT_V, Surface, Verdict,
 };
 use crate::kernel::project::perspective;
 use crate::kernel::weber;
@@ -51,8 +51,16 @@ struct Hull {
     part: Net,
     /// What rounding can do, in eye space.
     slack: f32,
-    /// Distance, along any axis, between the surface and the one whose hull it is.
-    spread: Option<f32>,
+    /// Only for a Gregory patch.
+    apart: Option<Apart>,
+}
+
+/// How a surface of a Gregory patch differs from the one whose hull is known.
+struct Apart {
+    /// Largest distance between the two along any axis.
+    spread: f32,
+    /// Control points of one that is even nearer: its lengths are the surface's, but it bounds nothing.
+    follower: Net,
 }
 
 impl Hull {
@@ -60,7 +68,7 @@ impl Hull {
     fn of_bezier(patch: &Patch, object: &Object, surface: Surface) -> Self {
         let whole = Net::in_eye_space(patch, object);
         let slack = mul(whole.extent(), ROUNDING);
-        Self { part: whole.restricted(surface), slack, spread: None }
+        Self { part: whole.restricted(surface), slack, apart: None }
     }
 
     #[inline(always)]
@@ -68,13 +76,20 @@ impl Hull {
         let mut whole = Net::in_eye_space(patch, object);
         let faces = Faces::in_eye_space(record, object);
         let slack = mul(max(whole.extent(), faces.extent()), ROUNDING);
-        let spread = faces.centre_inner(&mut whole, surface, frame.flags & FLAG_WEBER != 0);
-        Self { part: whole.restricted(surface), slack, spread: Some(spread) }
+        let exchanged = frame.flags & FLAG_WEBER != 0;
+        let spread = faces.centre_inner(&mut whole, surface, exchanged);
+        let part = whole.restricted(surface);
+        let mut follower = part;
+        faces.follow(&mut follower, surface, exchanged);
+        Self { part, slack, apart: Some(Apart { spread, follower }) }
     }
 
     #[inline(always)]
     fn spread(&self) -> f32 {
-        self.spread.unwrap_or(0.0)
+        match &self.apart {
+            Some(apart) => apart.spread,
+            None => 0.0,
+        }
     }
 
     /// Smallest distance of the surface from the eye plane.
@@ -88,15 +103,27 @@ impl Hull {
     fn seen(&self, frame: &Frame, nearest: f32) -> Seen {
         let (x, y) = on_screen(frame, &self.part);
         let scale = recip(nearest);
-        let wobble = match self.spread {
+        let wobble = match &self.apart {
             None => 0.0,
-            Some(spread) => {
+            Some(apart) => {
                 let off_axis = max(largest(&x), largest(&y));
-                mul(mul(add(frame.focal, off_axis), spread), scale)
+                mul(mul(add(frame.focal, off_axis), apart.spread), scale)
             }
         };
         let margin = add(add(1.0, mul(mul(frame.focal, self.slack), scale)), wobble);
-        Seen { x, y, wobble, margin }
+        Seen { x, y, margin }
+    }
+
+    /// Lengths along u and along v on screen.
+    #[inline(always)]
+    fn extents(&self, frame: &Frame, seen: &Seen) -> (f32, f32) {
+        match &self.apart {
+            None => (length_u(&seen.x, &seen.y), length_v(&seen.x, &seen.y)),
+            Some(apart) => {
+                let (x, y) = on_screen(frame, &apart.follower);
+                (length_u(&x, &y), length_v(&x, &y))
+            }
+        }
     }
 }
 
@@ -104,9 +131,7 @@ impl Hull {
 struct Seen {
     x: [f32; 16],
     y: [f32; 16],
-    /// How far the surface can be from the one that they control.
-    wobble: f32,
-    /// How far it can be outside of their hull.
+    /// How far the surface can be outside of their hull.
     margin: f32,
 }
 
@@ -123,13 +148,6 @@ impl Seen {
     fn pixels(&self, frame: &Frame) -> PixelBox {
         let reach = add(self.margin, mul(frame.bound, SEAM_ALLOWANCE));
         PixelBox::around(frame, &self.x, &self.y, reach)
-    }
-
-    /// Lengths along u and along v.
-    #[inline(always)]
-    fn extents(&self) -> (f32, f32) {
-        let more = mul(WOBBLES, self.wobble);
-        (add(length_u(&self.x, &self.y), more), add(length_v(&self.x, &self.y), more))
     }
 }
 
@@ -152,7 +170,7 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
     if !seen.is_in_view(frame) {
         return verdict(CULL, PixelBox::EMPTY);
     }
-    let extents = seen.extents();
+    let extents = hull.extents(frame, &seen);
     if max(extents.0, extents.1) <= frame.bound {
         return verdict(DRAW, seen.pixels(frame));
     }

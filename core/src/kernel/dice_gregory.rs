@@ -22,7 +22,7 @@ pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, surface: Surface, g
             for l in 0..LANES {
                 // Beyond the row's end, where the next row will be, its last vertex is repeated.
                 let u = surface.u + rate.min(block + l as u32) * step_u;
-                let Vertex { point, du, dv } = vertex(net, faces, frame, u, v);
+                let Vertex { point, du, dv } = evaluate_gregory(net, faces, frame, u, v);
                 for k in 0..3 {
                     (lanes[0][k][l], lanes[1][k][l], lanes[2][k][l]) = (point[k], du[k], dv[k]);
                 }
@@ -51,7 +51,7 @@ pub struct Vertex {
 /// Evaluates a Gregory patch; the derivatives are the true ones, those of the blends included.
 #[inline(always)]
 #[must_use]
-pub fn vertex(net: &Net, faces: &Faces, frame: &Frame, u: u32, v: u32) -> Vertex {
+pub fn evaluate_gregory(net: &Net, faces: &Faces, frame: &Frame, u: u32, v: u32) -> Vertex {
     let (u, v) = (param(u), param(v));
     let blends = if frame.flags & FLAG_WEBER != 0 { weber_blends(u, v) } else { blends(u, v) };
     let here = faces.net_at(net, blends);

@@ -4,10 +4,10 @@
 //! the other on the border of constant v, so that the tangent planes of each border are that border's own.
 //! Border curves are those of the net alone: plain cubics, the same as a Bézier patch has.
 
-use crate::abi::{INNER_MOST, Object, PARAM_ONE, PARAM_STEP, Patch, Surface};
-use crate::num::{abs, add, largest3, max, min, mul, neg, recip, scale3, sub};
+use crate::abi::{INNER_MOST, Object, PARAM_ONE, PARAM_STEP, Patch, Surface, THIRD};
+use crate::num::{abs, add, float, largest3, max, min, mul, neg, recip, scale3, sub};
 use crate::patch::Net;
-use crate::patch::bezier::param;
+use crate::patch::bezier::{blossom, param};
 
 /// Where the inner points stand in a net: 2·i + j of them is the one beside the borders u = i and v = j.
 pub const INNER: [usize; 4] = [5, 6, 9, 10];
@@ -99,7 +99,7 @@ impl Faces {
         for m in 0..4 {
             let (a, b) = (distances(first, m / 2), distances(second, m % 2));
             let (low, high) = (share(a.1, b.0), share(a.0, b.1));
-            self.put_inner(net, m, mul(0.5, add(low, high)));
+            self.put_inner(net, m, middle(a, b));
             let across = (distances(along_u, m / 2), distances(along_v, m % 2));
             let weight = mul(inner_weight(across.0), inner_weight(across.1));
             let half = mul(0.5, sub(high, low));
@@ -107,16 +107,61 @@ impl Faces {
         }
         spread
     }
+
+    /// Moves the control points of a surface, restricted from the net of [`Faces::centre_inner`], to where
+    /// the shares at the surface's four corners, and between them, take them: lengths are then right to first
+    /// order.
+    #[inline(always)]
+    pub fn follow(&self, part: &mut Net, surface: Surface, exchanged: bool) {
+        let (along_u, along_v) = ((surface.u, surface.u_size()), (surface.v, surface.v_size()));
+        let (first, second) = if exchanged { (along_v, along_u) } else { (along_u, along_v) };
+        let weights_u = blossom(surface.u, surface.u + surface.u_size());
+        let weights_v = blossom(surface.v, surface.v + surface.v_size());
+        for m in 0..4 {
+            let (a, b) = (ends(first, m / 2), ends(second, m % 2));
+            let (from, middle) =
+                (self.difference(m), middle(distances(first, m / 2), distances(second, m % 2)));
+            let corners = [share(a[0], b[0]), share(a[0], b[1]), share(a[1], b[0]), share(a[1], b[1])];
+            for l in 0..16 {
+                let (s, t) = (mul(float(l as i32 / 4), THIRD), mul(float(l as i32 % 4), THIRD));
+                let (s, t) = if exchanged { (t, s) } else { (s, t) };
+                let here = mix(mix(corners[0], corners[1], t), mix(corners[2], corners[3], t), s);
+                let weight = mul(weights_u[l / 4][INNER[m] / 4], weights_v[l % 4][INNER[m] % 4]);
+                let moved = scale3(from, mul(weight, sub(here, middle)));
+                (part.x[l], part.y[l]) = (add(part.x[l], moved[0]), add(part.y[l], moved[1]));
+                part.z[l] = add(part.z[l], moved[2]);
+            }
+        }
+    }
+}
+
+/// Between two numbers, at `t` from 0 to 1.
+#[inline(always)]
+const fn mix(low: f32, high: f32, t: f32) -> f32 {
+    add(low, mul(sub(high, low), t))
+}
+
+/// Distances of a range's low and high end from the end 0 or 1 of its parameter.
+#[inline(always)]
+const fn ends((start, size): (u32, u32), end: usize) -> [f32; 2] {
+    if end == 0 {
+        [param(start), param(start + size)]
+    } else {
+        [param(PARAM_ONE - start), param(PARAM_ONE - start - size)]
+    }
+}
+
+/// The middle of all shares at distances in two ranges.
+#[inline(always)]
+const fn middle(a: (f32, f32), b: (f32, f32)) -> f32 {
+    mul(0.5, add(share(a.1, b.0), share(a.0, b.1)))
 }
 
 /// Least and largest distance of a range from the end 0 or 1 of its parameter.
 #[inline(always)]
-const fn distances((start, size): (u32, u32), end: usize) -> (f32, f32) {
-    if end == 0 {
-        (param(start), param(start + size))
-    } else {
-        (param(PARAM_ONE - start - size), param(PARAM_ONE - start))
-    }
+const fn distances(range: (u32, u32), end: usize) -> (f32, f32) {
+    let [low, high] = ends(range, end);
+    if end == 0 { (low, high) } else { (high, low) }
 }
 
 /// Largest inner Bernstein weight in a range of distances, or a little more.
