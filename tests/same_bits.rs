@@ -17,7 +17,7 @@ fn essence(rendering: &Rendering) -> (String, [u64; 5]) {
 
 #[test]
 fn threads_batches_budgets_and_runs_do_not_matter() {
-    for name in ["teapot", "eyesplit", "spheres", "still-life"] {
+    for name in ["teapot", "eyesplit", "spheres", "still-life", "gregory"] {
         let scene = Scene::load(format!("scenes/{name}.toml")).expect("a scene");
         let expected = essence(&render_with(&scene, Batch::default(), 1));
         for threads in [1, 2, 3, 7] {

@@ -12,7 +12,7 @@ use micropoly_core::known;
 
 /// Everything that an OpenCL compiler may be told to break.
 const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
-const SCENES: [&str; 4] = ["teapot", "eyesplit", "spheres", "still-life"];
+const SCENES: [&str; 5] = ["teapot", "eyesplit", "spheres", "still-life", "gregory"];
 const SMALL: FrameOptions = FrameOptions {
     width: 320,
     height: 180,
@@ -69,6 +69,14 @@ fn all_scenes_have_the_bits_of_the_cpu() {
 fn other_dice_rates_have_the_bits_of_the_cpu() {
     for (rate, bound) in [(16, 20.0), (2, 20.0), (1, 3.0)] {
         compare(&case("teapot", &FrameOptions { rate, bound, ..SMALL }), &[4096], &OpenOptions::default());
+    }
+}
+
+#[test]
+fn webers_rules_have_the_bits_of_the_cpu() {
+    let options = FrameOptions { profile: Profile::Weber2014, ..SMALL };
+    for scene in ["teapot", "gregory"] {
+        compare(&case(scene, &options), &[4096], &OpenOptions::default());
     }
 }
 

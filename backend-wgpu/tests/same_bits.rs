@@ -1,6 +1,6 @@
 //! Every scene gives exactly the CPU's bits. Needs a Vulkan driver; Mesa's software one will do.
 
-use micropoly::{FrameOptions, Scene};
+use micropoly::{FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
 use micropoly_conformance::{Case, Outcome, run};
@@ -64,6 +64,15 @@ fn the_spheres_have_the_same_bits() {
 #[test]
 fn the_still_life_has_the_same_bits() {
     assert_same(&case("still-life", small()), &[500, 4096]);
+}
+
+/// Kernels of their own: see `bound_any.wgsl` and `dice_gregory.wgsl`.
+#[test]
+fn gregory_patches_and_webers_rules_have_the_same_bits() {
+    let weber = FrameOptions { profile: Profile::Weber2014, ..small() };
+    assert_same(&case("gregory", small()), &[500, 4096]);
+    assert_same(&case("gregory", weber), &[500]);
+    assert_same(&case("teapot", weber), &[4096]);
 }
 
 #[test]

@@ -9,9 +9,11 @@
 //! | one root surface a patch | [`kernel::seed::seed`] | `kernel/seed.rs` |
 //! | the next batch from the top of the stack | [`kernel::take::take`] | `kernel/take.rs` |
 //! | cull, draw or split, decided conservatively | [`kernel::bound::bound`] | `kernel/bound.rs` |
+//! | the same by the rules of Weber's program | [`kernel::weber::code`] | `kernel/weber.rs` |
 //! | where each child and each drawn surface goes | [`kernel::scan::scan`] | `kernel/scan.rs` |
 //! | children back to the stack, the rest to be drawn | [`kernel::split::split`] | `kernel/split.rs` |
 //! | a drawn surface becomes a grid of vertices | [`kernel::dice::dice`] | `kernel/dice.rs` |
+//! | the same for a Gregory patch | [`kernel::dice_gregory::dice_gregory`] | `kernel/dice_gregory.rs`, `patch/gregory.rs` |
 //! | a colour a vertex | [`kernel::shade::shade`] | `kernel/shade.rs` |
 //! | micropolygons become samples | [`kernel::sample::sample`] | `kernel/sample.rs` |
 //! | who calls what, in which order | [`schedule::Bounded`], [`render::FramePlan`] | `schedule/`, `render.rs` |
