@@ -68,6 +68,7 @@ fn a_good_scene_renders_and_its_statistics_can_be_relied_on() {
     assert_eq!(json["version"], 1);
     assert_eq!(json["backend"], "cpu");
     assert_eq!(json["patches"], 1);
+    assert_eq!(json["options"]["profile"], "conservative");
     assert_eq!(json["options"]["width"], 64);
     for name in ["processed", "drawn", "culled", "depth_limited", "max_stack", "stack_bound"] {
         assert!(json["surfaces"][name].is_u64(), "surfaces.{name}");
@@ -132,8 +133,9 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (camera(("fov = 40", "fov = 0")), "fov is 0"),
         (camera(("eye = [0, -5, 1]", "eye = [0, 0, 0]")), "scene.toml:2: the camera looks nowhere"),
         (camera(("eye = [0, -5, 1]", "eye = [inf, 0, 0]")), "not finite"),
-        (scene(CAMERA, ""), "exactly one of geometry, patches and generate"),
+        (scene(CAMERA, ""), "exactly one of geometry, patches, gregory and generate"),
         (scene(CAMERA, "patches = [[[0, 0, 0]]]"), "a patch of 1 points"),
+        (scene(CAMERA, "gregory = [[[0, 0, 0]]]"), "has 20 points"),
         (scene(CAMERA, "patches = []"), "the list of patches is empty"),
         (scene(CAMERA, "geometry = \"patches.obj\""), "not a .bpt file"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"red\""), "this is not a colour"),
@@ -167,6 +169,7 @@ fn options_that_cannot_be_are_refused() {
         ("--batch=99999999999", "--batch"),
         ("--bound=0", "pixels"),
         ("--bound=nan", "pixels"),
+        ("--profile=other", "weber2014"),
         ("--dice=3", "1, 2, 4, 8 or 16"),
         ("--dice=-8", "1, 2, 4, 8 or 16"),
         ("--max-depth=0", "--max-depth"),

@@ -65,6 +65,22 @@ fn a_closed_surface_has_no_pinholes_from_inside() {
 }
 
 #[test]
+fn a_closed_surface_of_gregory_patches_has_no_pinholes_from_inside() {
+    let mut scene = Scene::load("scenes/gregory.toml").expect("a scene");
+    (scene.background, scene.ambient) = (glam::Vec3::ZERO, glam::Vec3::ONE);
+    let mut random = fastrand::Rng::with_seed(43);
+    for round in 0..40 {
+        let eye = random_direction(&mut random) * 0.8 * random.f64();
+        let target = eye + random_direction(&mut random);
+        scene.camera =
+            Camera::look_at(eye, target, glam::DVec3::new(0.3, 0.2, 0.9), 70.0, 0.01).expect("a view");
+        let image = render_at(&scene, 320, 180, [8.0, 3.0, 20.0][round % 3]).image;
+        let holes = image.rgb.chunks_exact(3).filter(|rgb| *rgb == [0, 0, 0]).count();
+        assert_eq!(holes, 0, "round {round}: camera at {eye}, looking at {target}");
+    }
+}
+
+#[test]
 fn a_closed_surface_has_no_pinholes_from_outside() {
     let mut random = fastrand::Rng::with_seed(41);
     for round in 0..60 {

@@ -15,17 +15,15 @@ use micropoly_core::patch::{Faces, Net};
 fn random_gregory(random: &mut fastrand::Rng, roughness: f32, apart: f32) -> [Patch; 2] {
     let mut patch = random_patch(random, roughness);
     let mut record = Patch::default();
-    for m in 0..4 {
-        let at = INNER[m];
-        for (k, c) in [&mut patch.x, &mut patch.y, &mut patch.z].into_iter().enumerate() {
-            let (a, b) = (c[at] + between(random, -apart, apart), c[at] + between(random, -apart, apart));
-            c[at] = 0.5 * (a + b);
-            let out = [&mut record.x, &mut record.y, &mut record.z];
-            let [x, y, z] = out;
-            let faces = [x, y, z];
-            let faces = faces.into_iter().nth(k).expect("three coordinates");
-            (faces[m], faces[4 + m]) = (a, b);
-        }
+    for (m, at) in INNER.into_iter().enumerate() {
+        let mut place = |c: &mut [f32; 16], faces: &mut [f32; 16]| {
+            faces[m] = c[at] + between(random, -apart, apart);
+            faces[4 + m] = c[at] + between(random, -apart, apart);
+            c[at] = 0.5 * (faces[m] + faces[4 + m]);
+        };
+        place(&mut patch.x, &mut record.x);
+        place(&mut patch.y, &mut record.y);
+        place(&mut patch.z, &mut record.z);
     }
     patch.faces = 1;
     [patch, record]

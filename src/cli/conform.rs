@@ -68,6 +68,7 @@ fn cases(files: &[std::path::PathBuf]) -> Result<Vec<Case>> {
         Scene::around("teapot".to_owned(), teapot)?,
         built_in("eyesplit", include_str!("../../scenes/eyesplit.toml"))?,
         built_in("spheres", include_str!("../../scenes/spheres.toml"))?,
+        built_in("gregory", include_str!("../../scenes/gregory.toml"))?,
     ];
     for file in files {
         scenes.push(Scene::load(file)?);
