@@ -1,5 +1,7 @@
 //! A device against a reference: every stage alone, then whole images and counts.
 
+use std::collections::BTreeMap;
+
 use micropoly_core::abi::Colour;
 use micropoly_core::backend::Device;
 use micropoly_core::render::FramePlan;
@@ -45,6 +47,8 @@ pub struct DeviceReport {
     pub backend: String,
     /// Name of the device.
     pub device: String,
+    /// Driver and limits, by name.
+    pub details: BTreeMap<&'static str, String>,
     /// Each stage alone.
     pub stages: Vec<StageReport>,
     /// Whole images and counts.
