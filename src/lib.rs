@@ -33,6 +33,7 @@ pub use micropoly_core as core;
 pub use crate::backend::{Backend, render};
 pub use crate::core::camera::{Camera, FrameOptions, Light, Material};
 pub use crate::core::render::Counts;
+pub use crate::core::schedule::Scheduler;
 pub use crate::error::{Error, Result};
 pub use crate::image::Image;
 pub use crate::render::{Batch, RenderOptions, Rendering, render_on, sizes_for};

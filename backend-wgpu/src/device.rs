@@ -384,6 +384,13 @@ impl Device for WgpuDevice {
         self.checked()
     }
 
+    fn copy(&mut self, from: &WgpuBuffer, to: &WgpuBuffer, entries: u64) -> Result<(), WgpuError> {
+        let bytes = to.bytes_from(from, entries)?;
+        let (from, to) = (from.memory().clone(), to.memory().clone());
+        self.encoder().copy_buffer_to_buffer(&from, 0, &to, 0, bytes);
+        self.checked()
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&WgpuBuffer]) -> Result<(), WgpuError> {
         let bindings = stage.bindings();
         if bindings.len() != buffers.len() {

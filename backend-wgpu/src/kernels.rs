@@ -126,7 +126,7 @@ impl Which {
     pub const fn files(self) -> &'static [File] {
         match self {
             Self::Stage(Stage::Seed) => &[GEN, ITEMS, SEED],
-            Self::Stage(Stage::Take) => &[GEN, TAKE],
+            Self::Stage(Stage::Take) => &[GEN, SURFACE, TAKE],
             Self::Stage(Stage::Bound) => &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND],
             Self::Stage(Stage::Scan) => &[GEN, SCAN],
             Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, SPLIT],

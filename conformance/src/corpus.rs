@@ -73,8 +73,24 @@ fn seed(random: &mut fastrand::Rng) -> Parts {
 }
 
 fn take(random: &mut fastrand::Rng) -> Parts {
-    let limits = Limits { batch: random.u32(1..100_000), ..Limits::default() };
-    (Items::Count(1), vec![words(&[limits]), words(&[control(random)])])
+    let levels = random.u32(1..=41);
+    let most = [4, 300, 6000][random.usize(0..3)];
+    let count = random.u32(0..most);
+    // Levels rise from the bottom to the top, as they do in every frame; now and then they do not.
+    let mut all: Vec<u32> = (0..count).map(|_| random.u32(0..levels)).collect();
+    if random.u8(0..8) > 0 {
+        all.sort_unstable();
+    }
+    let stack: Vec<Surface> = all
+        .iter()
+        .map(|&level| Surface { shape: level.min(20) | level.saturating_sub(20) << 5, ..Surface::root(0) })
+        .collect();
+    let spare = [50, 2 * count + 50][random.usize(0..2)];
+    let stack_room = count + random.u32(1..spare);
+    let limits = Limits { batch: random.u32(1..2 * count + 2), levels, stack_room, ..Limits::default() };
+    let control = Control { stack: count, ..control(random) };
+    let room = if stack.is_empty() { vec![Surface::default()] } else { stack };
+    (Items::Count(1), vec![words(&[limits]), words(&room), words(&[control])])
 }
 
 /// A view from near or inside a unit ball around the origin.

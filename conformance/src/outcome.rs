@@ -49,8 +49,8 @@ pub struct Outcome {
 pub fn run<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Outcome, D::Error> {
     let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
     let plan = FramePlan::new(case.frame, count(case.patches.len()), count(case.objects.len()), batch)?;
-    let buffers = plan.prepare(device, &case.objects, &case.patches)?;
-    let counts = plan.run(device, &buffers, |_| {})?;
+    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    let counts = plan.run(device, &mut buffers, |_| {})?;
     let (samples, covered) = hash_samples(device, &buffers, plan.sizes().pixels())?;
     Ok(Outcome {
         samples,

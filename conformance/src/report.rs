@@ -130,8 +130,8 @@ pub fn check_case<R: Device, D: Device>(
 pub fn colours<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Vec<Colour>, D::Error> {
     let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
     let plan = FramePlan::new(case.frame, count(case.patches.len()), count(case.objects.len()), batch)?;
-    let buffers = plan.prepare(device, &case.objects, &case.patches)?;
-    plan.run(device, &buffers, |_| {})?;
+    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    plan.run(device, &mut buffers, |_| {})?;
     let mut colours = vec![Colour::default(); plan.sizes().pixels() as usize];
     device.read(&buffers.colours, 0, &mut colours)?;
     Ok(colours)

@@ -6,7 +6,7 @@ use bytesize::ByteSize;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::MAX_BATCH;
-use micropoly::{Backend, Batch, FrameOptions, RenderOptions};
+use micropoly::{Backend, Batch, FrameOptions, RenderOptions, Scheduler};
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -116,6 +116,13 @@ pub(crate) struct FrameArguments {
     /// Memory that the device may use, for example 64MiB. The image does not depend on it.
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = bytes)]
     memory: Option<u64>,
+    /// How the stack of surfaces is worked off. The image does not depend on it.
+    #[arg(long, value_enum, default_value_t = SchedulerChoice::Adaptive)]
+    scheduler: SchedulerChoice,
+    /// Entries of the stack for --scheduler adaptive; the number of patches + levels - 1 is enough. The image
+    /// does not depend on it.
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u32).range(1..))]
+    stack: Option<u32>,
     /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
     #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true,
           value_parser = value_parser!(u16).range(0..=1024))]
@@ -141,7 +148,37 @@ impl FrameArguments {
             levels: self.max_depth,
             cull_backfaces: self.cull_backfaces,
         };
-        RenderOptions { frame, batch, threads: usize::from(self.threads), ..RenderOptions::default() }
+        RenderOptions {
+            frame,
+            batch,
+            scheduler: self.scheduler.into(),
+            capacity: self.stack.unwrap_or(0),
+            threads: usize::from(self.threads),
+            ..RenderOptions::default()
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SchedulerChoice {
+    /// One surface at a time, depth first.
+    Stack,
+    /// All surfaces of a level at once; memory grows with the scene.
+    Breadth,
+    /// Batches of fixed size (Weber 2014).
+    Bounded,
+    /// As many as are safe for the stack, however small it is.
+    Adaptive,
+}
+
+impl From<SchedulerChoice> for Scheduler {
+    fn from(choice: SchedulerChoice) -> Self {
+        match choice {
+            SchedulerChoice::Stack => Self::Stack,
+            SchedulerChoice::Breadth => Self::Breadth,
+            SchedulerChoice::Bounded => Self::Bounded,
+            SchedulerChoice::Adaptive => Self::Adaptive,
+        }
     }
 }
 

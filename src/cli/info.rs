@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<()> {
         sizes.batch,
         sizes.levels
     );
-    say!("stack bound  {} surfaces", sizes.stack_entries());
+    say!("stack bound  {} surfaces", sizes.stack_bound().map_or("no".to_owned(), |bound| bound.to_string()));
     say!("memory       {} on the device", ByteSize(sizes.bytes()).display().iec());
     Ok(())
 }

@@ -108,6 +108,7 @@ struct Limits {
     batch: u32,
     stack_room: u32,
     draw_room: u32,
+    levels: u32,
 }
 
 struct Sample {
