@@ -3,6 +3,7 @@
 //! The bound on the surface stack sharpens Weber 2014, sec. 4.3: `n` roots, batches of `p`, levels
 //! `0 .. k`, where level `k - 1` is never split. The stack stays sorted by level, and a batch that is full
 //! always takes the deepest surfaces, so each of the `k - 1` levels can leave at most one batch behind.
+//! `docs/proofs/stack.md` has the proof.
 
 use crate::abi::{
     Colour, Control, Draw, Frame, Limits, MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface,

@@ -1,6 +1,7 @@
 //! Schedulers: how much of the stack is worked on at once, and which stage runs next. They know counts, never
 //! surfaces. The image and the drawn surfaces are the same whichever is chosen.
 
+pub mod adaptive;
 mod bounded;
 
 pub use bounded::{Bounded, Step};
