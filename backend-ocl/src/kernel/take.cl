@@ -1,5 +1,5 @@
-// Mirrors core/src/kernel/take.rs: the next batch is the top of the stack, as much of it as is safe; drawn
-// surfaces are forgotten.
+// Mirrors core/src/kernel/take.rs and core/src/schedule/adaptive.rs: the next batch is the top of the stack, as
+// much of it as is safe; drawn surfaces are forgotten.
 
 static Control take(Control control, uint base) {
     control.taken = control.stack - base;
@@ -11,13 +11,16 @@ static Control take(Control control, uint base) {
 }
 
 static bool is_safe(__global const Limits *limits, uint count, uint taken) {
-    return count + taken + limits->levels <= limits->stack_room + 2u;
+    return taken + limits->levels <= limits->stack_room - count + 2u;
 }
 
-static uint least_base(__global const Limits *limits, uint index, uint entry_level) {
-    const uint needed = index + limits->levels - entry_level, free_above = limits->stack_room - index;
-    const uint least = needed > free_above ? needed - free_above : 0u;
-    return least > index ? index + 1u : least;
+static uint lowest(__global const Limits *limits, uint entry, uint entry_level) {
+    if (entry_level + 1u >= limits->levels) {
+        return 0u;
+    }
+    const uint needed = entry + limits->levels - entry_level;
+    const uint left = limits->stack_room > needed ? limits->stack_room - needed : 0u;
+    return entry > left ? entry - left : 0u;
 }
 
 // `flush` in core, which is a number's here.
@@ -31,14 +34,14 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void stage_take(__global const Limits *limits, __global const Surface *stack, __global Control *control) {
     __local uint base;
     const uint lane = get_local_id(0), count = control->stack;
-    const uint lowest = count > limits->batch ? count - limits->batch : 0u;
+    const uint first = count > limits->batch ? count - limits->batch : 0u;
     if (lane == 0u) {
-        base = lowest;
+        base = first;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (!is_safe(limits, count, count - lowest)) {
-        for (uint index = lowest + lane; index < count; index += GROUP) {
-            atomic_max(&base, least_base(limits, index, level(stack[index])));
+    if (!is_safe(limits, count, count - first)) {
+        for (uint entry = first + lane; entry < count; entry += GROUP) {
+            atomic_max(&base, lowest(limits, entry, level(stack[entry])));
         }
     }
     barrier(CLK_LOCAL_MEM_FENCE);

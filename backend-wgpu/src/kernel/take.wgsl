@@ -1,4 +1,5 @@
-// Mirrors core/src/kernel/take.rs (take): the next batch is the top of the stack, as much of it as is safe.
+// Mirrors core/src/kernel/take.rs (take) and core/src/schedule/adaptive.rs: the next batch is the top of the
+// stack, as much of it as is safe.
 
 @group(0) @binding(0) var<storage, read> limits: Limits;
 @group(0) @binding(1) var<storage, read> stack: array<Surface>;
@@ -12,14 +13,14 @@ var<workgroup> base: atomic<u32>;
 @compute @workgroup_size(GROUP)
 fn main(@builtin(local_invocation_index) lane: u32) {
     let count = control.stack;
-    let lowest = select(0u, count - limits.batch, count > limits.batch);
+    let first = select(0u, count - limits.batch, count > limits.batch);
     if lane == 0u {
-        atomicStore(&base, lowest);
+        atomicStore(&base, first);
     }
     workgroupBarrier();
-    let safe = is_safe(count, count - lowest);
-    for (var index = lowest + lane; index < select(count, 0u, safe); index += GROUP) {
-        atomicMax(&base, least_base(index, level(stack[index])));
+    let safe = is_safe(count, count - first);
+    for (var entry = first + lane; entry < select(count, 0u, safe); entry += GROUP) {
+        atomicMax(&base, lowest(entry, level(stack[entry])));
     }
     workgroupBarrier();
     if lane == 0u {
@@ -38,12 +39,12 @@ fn take(before: Control, first: u32) -> Control {
 }
 
 fn is_safe(count: u32, taken: u32) -> bool {
-    return count + taken + limits.levels <= limits.stack_room + 2u;
+    return taken + limits.levels <= limits.stack_room - count + 2u;
 }
 
-fn least_base(index: u32, level: u32) -> u32 {
-    let needed = index + limits.levels - level;
-    let free = limits.stack_room - index;
-    let least = select(0u, needed - free, needed > free);
-    return select(least, index + 1u, least > index);
+fn lowest(entry: u32, level: u32) -> u32 {
+    let needed = entry + limits.levels - level;
+    let left = select(0u, limits.stack_room - needed, limits.stack_room > needed);
+    let least = select(0u, entry - left, entry > left);
+    return select(least, 0u, level + 1u >= limits.levels);
 }

@@ -18,23 +18,24 @@ pub const fn lowest(entry: u32, level: u32, levels: u32, capacity: u32) -> u32 {
     entry.saturating_sub(left)
 }
 
+/// Is a batch of so many surfaces safe, whatever their levels are? The test that needs no look at them.
+#[inline(always)]
+#[must_use]
+pub const fn is_safe(stack: u32, taken: u32, levels: u32, capacity: u32) -> bool {
+    taken.saturating_add(levels).saturating_sub(2) <= capacity.saturating_sub(stack)
+}
+
 /// Where the next batch starts: the smallest base, at most `batch` below the top, after which the stack is
 /// safe even if all is split that may be.
 ///
-/// The stack must be safe and sorted, the deepest level on top, as it is from the roots on. Then the base is
-/// below the top, and every later stack fits `capacity`. Usually there is room, and two levels are read.
+/// The stack must be safe, as it is from the roots on. Then the base is below the top, and every later stack
+/// fits `capacity`.
+#[inline(always)]
 #[must_use]
 pub fn base(stack: u32, batch: u32, levels: u32, capacity: u32, level_of: impl Fn(u32) -> u32) -> u32 {
     let first = stack.saturating_sub(batch);
-    if stack == 0 {
+    if is_safe(stack, stack - first, levels, capacity) {
         return first;
     }
-    let (mut base, shallowest) = (first, level_of(first));
-    for entry in (first..stack).rev() {
-        if lowest(entry, shallowest, levels, capacity) <= base {
-            break; // nor does any entry below need more
-        }
-        base = base.max(lowest(entry, level_of(entry), levels, capacity));
-    }
-    base
+    (first..stack).fold(first, |base, entry| base.max(lowest(entry, level_of(entry), levels, capacity)))
 }
