@@ -4,11 +4,15 @@ use micropoly_core::stage::{Access, Stage};
 
 use crate::error::WgpuError;
 
-/// Changes a kernel file before it is compiled, given its name and source: for mutation tests.
+/// Changes a kernel file before it is compiled, given its name and source: for mutation tests. Nothing at all
+/// in the place of a kernel's own file leaves that kernel out: it is opened faster, and does nothing.
 pub type Edit<'a> = &'a dyn Fn(&str, &str) -> String;
 
-/// One WGSL file.
-type File = (&'static str, &'static str);
+/// A kernel that does nothing.
+const NOTHING: &str = "@compute @workgroup_size(1) fn main() {}";
+
+/// One WGSL file: its name and its source.
+pub type File = (&'static str, &'static str);
 
 macro_rules! files {
     ($($constant:ident: $name:literal,)*) => {
@@ -59,6 +63,52 @@ const fn files(stage: Stage) -> &'static [File] {
     }
 }
 
+/// What a kernel is made of: for tests that look into it or change it.
+#[derive(Clone, Debug)]
+pub struct KernelSource {
+    /// Its name in error messages.
+    pub name: &'static str,
+    /// The stages that run it.
+    pub stages: &'static [Stage],
+    /// Its files in the order in which they are put together; the last is its own.
+    pub files: &'static [File],
+    /// Name and use of its buffers, in order.
+    pub bindings: Vec<(&'static str, Access)>,
+}
+
+/// Every kernel of the backend.
+#[must_use]
+pub fn kernels() -> Vec<KernelSource> {
+    Stage::ALL.iter().map(of_stage).chain([arranging(), arranging_draw()]).collect()
+}
+
+fn of_stage(stage: &'static Stage) -> KernelSource {
+    let mut bindings: Vec<_> =
+        stage.bindings().iter().map(|binding| (binding.name, binding.access)).collect();
+    if *stage == Stage::Draw {
+        bindings.push(("rounds", Access::Write));
+    }
+    KernelSource { name: stage.name(), stages: std::slice::from_ref(stage), files: files(*stage), bindings }
+}
+
+fn arranging() -> KernelSource {
+    KernelSource {
+        name: "arrange",
+        stages: &[Stage::Bound, Stage::Split],
+        files: &[GEN, ITEMS, ARRANGE],
+        bindings: vec![("control", Access::Read), ("groups", Access::Write)],
+    }
+}
+
+fn arranging_draw() -> KernelSource {
+    KernelSource {
+        name: "arrange_draw",
+        stages: &[Stage::Draw],
+        files: &[GEN, ROUNDS, ARRANGE_DRAW],
+        bindings: vec![("frame", Access::Read), ("rounds", Access::Write), ("groups", Access::Write)],
+    }
+}
+
 /// A compiled kernel and the layout of its bindings.
 #[derive(Debug)]
 pub(crate) struct Kernel {
@@ -72,44 +122,42 @@ pub(crate) fn stage(
     stage: Stage,
     edit: Option<Edit<'_>>,
 ) -> Result<Kernel, WgpuError> {
-    let mut access: Vec<Access> = stage.bindings().iter().map(|binding| binding.access).collect();
-    if stage == Stage::Draw {
-        access.push(Access::Write); // the rounds
-    }
-    compile(device, stage.name(), &source(files(stage), edit), &access)
+    compile(device, &of_stage(&Stage::ALL[stage as usize]), edit)
 }
 
 /// The kernel that turns a batch into a number of groups.
 pub(crate) fn arrange(device: &wgpu::Device, edit: Option<Edit<'_>>) -> Result<Kernel, WgpuError> {
-    compile(device, "arrange", &source(&[GEN, ITEMS, ARRANGE], edit), &[Access::Read, Access::Write])
+    compile(device, &arranging(), edit)
 }
 
 /// The kernel that starts a round of the fused stage.
 pub(crate) fn arrange_draw(device: &wgpu::Device, edit: Option<Edit<'_>>) -> Result<Kernel, WgpuError> {
-    let access = [Access::Read, Access::Write, Access::Write];
-    compile(device, "arrange_draw", &source(&[GEN, ROUNDS, ARRANGE_DRAW], edit), &access)
+    compile(device, &arranging_draw(), edit)
 }
 
+/// All files after each other; [`NOTHING`] if the kernel's own is edited away.
 fn source(files: &[File], edit: Option<Edit<'_>>) -> String {
-    files
-        .iter()
-        .map(|(name, text)| edit.map_or_else(|| (*text).to_owned(), |edit| edit(name, text)))
-        .collect()
+    let edited = |(name, text): &File| edit.map_or_else(|| (*text).to_owned(), |edit| edit(name, text));
+    let texts: Vec<String> = files.iter().map(edited).collect();
+    match texts.last() {
+        Some(own) if own.is_empty() => NOTHING.to_owned(),
+        _ => texts.concat(),
+    }
 }
 
 fn compile(
     device: &wgpu::Device,
-    name: &'static str,
-    source: &str,
-    access: &[Access],
+    kernel: &KernelSource,
+    edit: Option<Edit<'_>>,
 ) -> Result<Kernel, WgpuError> {
+    let access: Vec<Access> = kernel.bindings.iter().map(|&(_, access)| access).collect();
     let errors = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
-    let kernel = create(device, name, source, access);
+    let built = create(device, kernel.name, &source(kernel.files, edit), &access);
     let internal = pollster::block_on(internal.pop());
     match pollster::block_on(errors.pop()).or(internal) {
-        None => Ok(kernel),
-        Some(error) => Err(WgpuError::Kernel { stage: name, reason: error.to_string() }),
+        None => Ok(built),
+        Some(error) => Err(WgpuError::Kernel { stage: kernel.name, reason: error.to_string() }),
     }
 }
 

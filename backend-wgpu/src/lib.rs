@@ -13,4 +13,4 @@ pub use buffer::WgpuBuffer;
 pub use device::WgpuDevice;
 pub use error::WgpuError;
 pub use info::{DeviceInfo, devices};
-pub use kernels::Edit;
+pub use kernels::{Edit, File, KernelSource, kernels};

@@ -6,6 +6,7 @@
 
 pub mod corpus;
 pub mod headers;
+pub mod mirrors;
 pub mod mutation;
 mod outcome;
 pub mod report;
