@@ -11,5 +11,6 @@ pub mod mutation;
 mod outcome;
 pub mod report;
 pub mod stages;
+pub mod trial;
 
 pub use outcome::{Case, Outcome, run};
