@@ -1,11 +1,12 @@
 //! Inputs for every stage: random ones, and the nasty cases among them (collapsed and folded patches, points
-//! at and behind the eye, equal depths, full buffers, every dice rate).
+//! at and behind the eye, control points far away, ranges that may not be split again, equal depths, full
+//! buffers, every dice rate).
 
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, Control, DRAW_LIMITED, Draw, Frame, Limits, Object, Patch, Sample, Shared, Slot, Surface,
-    Verdict,
+    CULL, Colour, Control, DRAW_LIMITED, Draw, Frame, Limits, MAX_SPLITS, Object, PARAM_ONE, Patch, Sample,
+    Shared, Slot, Surface, Verdict,
 };
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::kernel::bound::bound;
@@ -107,10 +108,11 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
     (frame, vec![object(0, 0.0), object(random.u32(0..=10), 0.4)])
 }
 
-/// A patch: smooth, rough, flat, collapsed along an edge, to a line or to a point.
+/// A patch: smooth, rough, flat, collapsed along an edge, to a line or to a point, with a control point far
+/// away (what rounding can do is then many pixels), or so long that ranges split most often are large.
 fn patch(random: &mut fastrand::Rng) -> Patch {
     let mut patch = Patch { object: random.u32(0..2), ..Patch::default() };
-    let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..8));
+    let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..12));
     for k in 0..16 {
         let mut jitter = || (random.f32() * 2.0 - 1.0) * rough;
         patch.x[k] = (k / 4) as f32 / 1.5 - 1.0 + jitter();
@@ -127,20 +129,39 @@ fn patch(random: &mut fastrand::Rng) -> Patch {
         };
         (patch.x[k], patch.y[k], patch.z[k]) = (patch.x[from], patch.y[from], patch.z[from]);
     }
-    if kind == 4 {
-        patch.z = [0.25; 16];
+    match kind {
+        4 => patch.z = [0.25; 16],
+        5 => patch.x[15] = 3.0e5,
+        6 => patch.y[15] = -3.0e5,
+        7 => patch.z[15] = 3.0e5,
+        8 => (0..16).for_each(|k| patch.x[k] = ((k / 4) as f32 / 1.5 - 1.0) * 4.0e6),
+        9 => (0..16).for_each(|k| patch.y[k] = ((k % 4) as f32 / 1.5 - 1.0) * 4.0e6),
+        _ => (),
     }
     patch
 }
 
+/// A range anywhere, at the low corner or about the middle; now and then one parameter is split to the end.
 fn surface(random: &mut fastrand::Rng, patches: usize, deepest: u32) -> Surface {
-    let mut surface = Surface::root(random.u32(0..patches as u32));
-    for _ in 0..random.u32(0..=deepest) {
-        let along_u = surface.v_level() >= 20 || (surface.u_level() < 20 && random.bool());
-        let halves = if along_u { surface.halves_u() } else { surface.halves_v() };
-        surface = halves[usize::from(random.bool())];
+    let splits = random.u32(0..=deepest);
+    let along_u = random.u32(0..=splits);
+    let mut levels = [along_u, splits - along_u].map(|level| level.min(MAX_SPLITS));
+    if deepest >= MAX_SPLITS && random.u8(0..4) == 0 {
+        levels[random.usize(0..2)] = MAX_SPLITS;
     }
-    surface
+    let place = random.u8(0..6);
+    let mut start = |level: u32| {
+        let (count, size) = (1 << level, PARAM_ONE >> level);
+        let index = match place {
+            0 => 0,
+            1 => count / 2,
+            2 => (count / 2).max(1) - 1,
+            _ => random.u32(0..count),
+        };
+        index * size
+    };
+    let (u, v) = (start(levels[0]), start(levels[1]));
+    Surface { patch_id: random.u32(0..patches as u32), u, v, shape: levels[0] | levels[1] << 5 }
 }
 
 fn scene(random: &mut fastrand::Rng) -> (Frame, Vec<Object>, Vec<Patch>) {
@@ -171,7 +192,8 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
 
 /// A batch of surfaces with verdicts, and counts before it.
 fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
-    let taken = random.u32(1..3000);
+    let most = [3000, 80][random.usize(0..2)];
+    let taken = random.u32(1..most);
     let surfaces = (0..taken).map(|_| surface(random, 24, 18)).collect();
     let only = random.u32(0..8);
     let code = |random: &mut fastrand::Rng| {
@@ -254,7 +276,7 @@ fn sample(random: &mut fastrand::Rng) -> Sample {
 }
 
 fn known(random: &mut fastrand::Rng) -> Parts {
-    let first = random.u32(0..30_000);
+    let first = random.u32(0..33_000); // up to operations that there are not
     let questions: Vec<_> = (first..first + 5000).map(question).collect();
     let frame = words(&[Frame::default()]);
     (Items::Count(5000), vec![frame, words(&questions), empty::<u32>(5000)])
