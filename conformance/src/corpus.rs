@@ -2,6 +2,8 @@
 //! at and behind the eye, control points far away, ranges that may not be split again, equal depths, full
 //! buffers, every dice rate).
 
+use std::ops::RangeInclusive;
+
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
@@ -93,9 +95,15 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
         fov,
         near,
     });
+    let (mut camera, mut size) = (camera, (random.u32(1..200), random.u32(1..150)));
+    if random.u8(0..4) == 0 {
+        // 32 pixels from a distance of 1: vertices of even patches lie on the centres of pixels.
+        camera = Camera { view: DAffine3::from_translation(DVec3::NEG_Z), fov: 90.8882888662, near: 0.05 };
+        size = (65, 65);
+    }
     let options = FrameOptions {
-        width: random.u32(1..200),
-        height: random.u32(1..150),
+        width: size.0,
+        height: size.1,
         bound: [3.0, 8.0, 40.0][random.usize(0..3)],
         rate: 1 << random.u32(0..=4),
         levels: random.u32(1..=41),
@@ -108,13 +116,14 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
     (frame, vec![object(0, 0.0), object(random.u32(0..=10), 0.4)])
 }
 
-/// A patch: smooth, rough, flat, collapsed along an edge, to a line or to a point, with a control point far
+/// A patch: smooth, rough, even, flat, collapsed along an edge, to a line or to a point, with a control point far
 /// away (what rounding can do is then many pixels), or so long that ranges split most often are large.
 fn patch(random: &mut fastrand::Rng) -> Patch {
     let mut patch = Patch { object: random.u32(0..2), ..Patch::default() };
     let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..12));
+    let corner = [0, 15][random.usize(0..2)];
     for k in 0..16 {
-        let mut jitter = || (random.f32() * 2.0 - 1.0) * rough;
+        let mut jitter = || if kind >= 10 { 0.0 } else { (random.f32() * 2.0 - 1.0) * rough };
         patch.x[k] = (k / 4) as f32 / 1.5 - 1.0 + jitter();
         patch.y[k] = (k % 4) as f32 / 1.5 - 1.0 + jitter();
         patch.z[k] = jitter();
@@ -131,31 +140,34 @@ fn patch(random: &mut fastrand::Rng) -> Patch {
     }
     match kind {
         4 => patch.z = [0.25; 16],
-        5 => patch.x[15] = 3.0e5,
-        6 => patch.y[15] = -3.0e5,
-        7 => patch.z[15] = 3.0e5,
+        5 => patch.x[corner] = 3.0e5,
+        6 => patch.y[corner] = -3.0e5,
+        7 => patch.z[corner] = 3.0e5,
         8 => (0..16).for_each(|k| patch.x[k] = ((k / 4) as f32 / 1.5 - 1.0) * 4.0e6),
         9 => (0..16).for_each(|k| patch.y[k] = ((k % 4) as f32 / 1.5 - 1.0) * 4.0e6),
+        11 => patch.x = patch.x.map(|x| -x), // seen from the other side
         _ => (),
     }
     patch
 }
 
-/// A range anywhere, at the low corner or about the middle; now and then one parameter is split to the end.
-fn surface(random: &mut fastrand::Rng, patches: usize, deepest: u32) -> Surface {
-    let splits = random.u32(0..=deepest);
-    let along_u = random.u32(0..=splits);
+/// A range anywhere, at a corner or about the middle; now and then one parameter is split to the end.
+fn surface(random: &mut fastrand::Rng, patches: usize, splits: RangeInclusive<u32>) -> Surface {
+    let deepest = *splits.end();
+    let splits = random.u32(splits);
+    let along_u = if random.bool() { splits / 2 } else { random.u32(0..=splits) };
     let mut levels = [along_u, splits - along_u].map(|level| level.min(MAX_SPLITS));
     if deepest >= MAX_SPLITS && random.u8(0..4) == 0 {
         levels[random.usize(0..2)] = MAX_SPLITS;
     }
-    let place = random.u8(0..6);
+    let place = random.u8(0..8);
     let mut start = |level: u32| {
         let (count, size) = (1 << level, PARAM_ONE >> level);
         let index = match place {
             0 => 0,
             1 => count / 2,
             2 => (count / 2).max(1) - 1,
+            3 => count - 1,
             _ => random.u32(0..count),
         };
         index * size
@@ -174,7 +186,8 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
     let (frame, objects, patches) = scene(random);
     let (base, taken) = (random.u32(0..300), random.u32(0..2000));
     let deepest = [4, 12, 40][random.usize(0..3)];
-    let stack: Vec<Surface> = (0..base + taken).map(|_| surface(random, patches.len(), deepest)).collect();
+    let stack: Vec<Surface> =
+        (0..base + taken).map(|_| surface(random, patches.len(), 0..=deepest)).collect();
     let control = Control { base, taken, stack: base + taken, ..Control::default() };
     let room = (taken + random.u32(1..100)) as usize;
     let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
@@ -194,7 +207,7 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
 fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
     let most = [3000, 80][random.usize(0..2)];
     let taken = random.u32(1..most);
-    let surfaces = (0..taken).map(|_| surface(random, 24, 18)).collect();
+    let surfaces = (0..taken).map(|_| surface(random, 24, 0..=18)).collect();
     let only = random.u32(0..8);
     let code = |random: &mut fastrand::Rng| {
         if only <= DRAW_LIMITED { only } else { random.u32(CULL..=DRAW_LIMITED) }
@@ -235,11 +248,12 @@ fn splits(random: &mut fastrand::Rng) -> Parts {
 
 fn draws(random: &mut fastrand::Rng) -> Parts {
     let (mut frame, objects, patches) = scene(random);
-    let deepest = [3, 8, 14][random.usize(0..3)];
+    let splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
     frame.levels = 1; // everything that is not culled is drawn, however large
+    frame.bound = [8.0, 20.0, 40.0][random.usize(0..3)]; // now and then a neighbour may be larger: seams
     let mut draws = Vec::new();
     for _ in 0..400 {
-        let surface = surface(random, patches.len(), deepest);
+        let surface = surface(random, patches.len(), splits.clone());
         let patch = &patches[surface.patch_id as usize];
         let verdict = bound(&frame, patch, &objects[patch.object as usize], surface);
         // Twice the same surface now and then: equal depths, equal identities.
