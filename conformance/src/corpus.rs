@@ -19,7 +19,7 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 12;
+pub const ROUNDS: u64 = 32;
 
 fn words<T: NoUninit>(entries: &[T]) -> Vec<u32> {
     bytemuck::cast_slice::<T, u8>(entries)
@@ -96,7 +96,7 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
         near,
     });
     let (mut camera, mut size) = (camera, (random.u32(1..200), random.u32(1..150)));
-    if random.u8(0..4) == 0 {
+    if random.u8(0..3) == 0 {
         // 32 pixels from a distance of 1: vertices of even patches lie on the centres of pixels.
         camera = Camera { view: DAffine3::from_translation(DVec3::NEG_Z), fov: 90.8882888662, near: 0.05 };
         size = (65, 65);
@@ -121,7 +121,8 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
 fn patch(random: &mut fastrand::Rng) -> Patch {
     let mut patch = Patch { object: random.u32(0..2), ..Patch::default() };
     let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..12));
-    let corner = [0, 15][random.usize(0..2)];
+    let anywhere = random.usize(0..16);
+    let (point, far) = ([0, 15, anywhere][random.usize(0..3)], [3.0e5, -3.0e5][random.usize(0..2)]);
     for k in 0..16 {
         let mut jitter = || if kind >= 10 { 0.0 } else { (random.f32() * 2.0 - 1.0) * rough };
         patch.x[k] = (k / 4) as f32 / 1.5 - 1.0 + jitter();
@@ -140,9 +141,9 @@ fn patch(random: &mut fastrand::Rng) -> Patch {
     }
     match kind {
         4 => patch.z = [0.25; 16],
-        5 => patch.x[corner] = 3.0e5,
-        6 => patch.y[corner] = -3.0e5,
-        7 => patch.z[corner] = 3.0e5,
+        5 => patch.x[point] = far,
+        6 => patch.y[point] = far,
+        7 => patch.z[point] = far,
         8 => (0..16).for_each(|k| patch.x[k] = ((k / 4) as f32 / 1.5 - 1.0) * 4.0e6),
         9 => (0..16).for_each(|k| patch.y[k] = ((k % 4) as f32 / 1.5 - 1.0) * 4.0e6),
         11 => patch.x = patch.x.map(|x| -x), // seen from the other side

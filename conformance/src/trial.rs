@@ -22,7 +22,7 @@ use crate::report::check_stage;
 /// Mutants a file where nobody asks for another number.
 const MOST: usize = 3;
 /// After this long a mutant counts as hanging.
-const PATIENCE: Duration = Duration::from_secs(180);
+const PATIENCE: Duration = Duration::from_secs(90);
 /// Argument before file and number of a mutant, for the process that runs it.
 const ONE: &str = "--mutant";
 /// In the place of a file: nothing is changed, and the number is that of a stage.
