@@ -251,7 +251,7 @@ fn draws(random: &mut fastrand::Rng) -> Parts {
     let (mut frame, objects, patches) = scene(random);
     let splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
     frame.levels = 1; // everything that is not culled is drawn, however large
-    frame.bound = [8.0, 20.0, 40.0][random.usize(0..3)]; // now and then a neighbour may be larger: seams
+    frame.bound = [4.0, 12.0, 40.0][random.usize(0..3)]; // now and then a neighbour may be larger: seams
     let mut draws = Vec::new();
     for _ in 0..400 {
         let surface = surface(random, patches.len(), splits.clone());

@@ -21,8 +21,8 @@ use crate::report::check_stage;
 
 /// Mutants a file where nobody asks for another number.
 const MOST: usize = 3;
-/// After this long a mutant counts as hanging.
-const PATIENCE: Duration = Duration::from_secs(90);
+/// After this long a mutant counts as hanging; kernels that nobody changed are given four times as long.
+const PATIENCE: Duration = Duration::from_secs(45);
 /// Argument before file and number of a mutant, for the process that runs it.
 const ONE: &str = "--mutant";
 /// In the place of a file: nothing is changed, and the number is that of a stage.
@@ -230,7 +230,8 @@ fn run_one(file: &str, number: usize) -> Fate {
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn();
-    let output = wait(child.expect("starts"));
+    let patience = if file == CONTROL { 4 * PATIENCE } else { PATIENCE };
+    let output = wait(child.expect("starts"), patience);
     let (told, fate) = output.rsplit_once(FOUND).unwrap_or((&output, ""));
     let fate = Fate::of_name(fate.trim()).unwrap_or(Fate::Died);
     if std::env::var_os("MUTANTS_VERBOSE").is_some() {
@@ -240,12 +241,12 @@ fn run_one(file: &str, number: usize) -> Fate {
 }
 
 /// What a process prints until it ends or has to be ended.
-fn wait(mut child: Child) -> String {
+fn wait(mut child: Child, patience: Duration) -> String {
     let mut output = String::new();
     let mut pipe = child.stdout.take().expect("it was asked for");
     let started = Instant::now();
     while child.try_wait().is_ok_and(|status| status.is_none()) {
-        if started.elapsed() > PATIENCE {
+        if started.elapsed() > patience {
             let _ = child.kill(); // it may have ended by now
         }
         std::thread::sleep(Duration::from_millis(10));
