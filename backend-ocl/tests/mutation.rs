@@ -1,0 +1,63 @@
+//! An operator changed in any kernel makes a comparison fail; see `conformance/src/trial.rs`.
+
+use std::process::ExitCode;
+
+use micropoly_backend_cpu::CpuDevice;
+use micropoly_backend_ocl::{FILES, OclDevice, OclError, OpenOptions};
+use micropoly_conformance::trial::{self, Allowed, Edit, File};
+use micropoly_core::stage::Stage;
+
+/// Mutants that nothing can notice.
+const ALLOWED: &[Allowed] = &[
+    Allowed {
+        file: "bound.cl",
+        line: "return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));",
+        operator: "add(",
+        why: "a length is less than a millionth of a pixel either way",
+    },
+    Allowed {
+        file: "seed.cl",
+        line: "if (position == 0u) {",
+        operator: " == ",
+        why: "a group has more than one item, and whoever writes the counts writes the same",
+    },
+    Allowed {
+        file: "scan.cl",
+        line: "const uint run = (taken + GROUP - 1u) / GROUP;",
+        operator: " - ",
+        why: "longer runs share out the same work",
+    },
+    Allowed {
+        file: "scan.cl",
+        line: "const uint run = (taken + GROUP - 1u) / GROUP;",
+        operator: " / ",
+        why: "the first run is then the whole batch",
+    },
+];
+
+/// The stages that a file is a part of; all are built together, so nothing else knows.
+fn stages(file: &str) -> Vec<Stage> {
+    match file {
+        "num.cl" => vec![Stage::KnownAnswers, Stage::Bound, Stage::Draw],
+        "surface.cl" => vec![Stage::Seed, Stage::Split, Stage::Bound, Stage::Draw],
+        "bezier.cl" | "net.cl" | "project.cl" => vec![Stage::Bound, Stage::Draw],
+        "take.cl" => vec![Stage::Take, Stage::Flush],
+        _ => {
+            let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));
+            vec![own.unwrap_or(Stage::Draw)]
+        }
+    }
+}
+
+fn open(_: &[Stage], edit: Edit<'_>) -> Result<OclDevice, OclError> {
+    OclDevice::open(0, &OpenOptions { edit: Some(edit), skip_check: true, ..OpenOptions::default() })
+}
+
+fn main() -> ExitCode {
+    let files: Vec<File> = FILES
+        .iter()
+        .filter(|(name, _)| *name != "gen.cl")
+        .map(|&(name, source)| File { name, source, stages: stages(name) })
+        .collect();
+    trial::main(&files, ALLOWED, CpuDevice::new(1).expect("threads"), open)
+}
