@@ -22,7 +22,7 @@ macro_rules! files {
 files! {
     "gen.cl" "num.cl" "bezier.cl" "surface.cl" "net.cl" "project.cl" "bound.cl" "grids.cl" "dice.cl"
     "seam.cl" "shade.cl" "triangle.cl" "clip.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl"
-    "draw.cl" "tiles.cl" "seed.cl" "take.cl" "scan.cl" "split.cl" "known_answers.cl"
+    "draw.cl" "tiles.cl" "seed.cl" "take.cl" "flush.cl" "scan.cl" "split.cl" "known_answers.cl"
 }
 
 /// The kernels: one a stage, and those into which the fused stage is cut.

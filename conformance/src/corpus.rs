@@ -138,7 +138,9 @@ fn patch(random: &mut fastrand::Rng) -> Patch {
     let mut patch = Patch { object: random.u32(0..2), ..Patch::default() };
     let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..12));
     let anywhere = random.usize(0..16);
-    let (point, far) = ([0, 15, anywhere][random.usize(0..3)], [3.0e5, -3.0e5][random.usize(0..2)]);
+    // So far that the rest seems flat beside it, or nearly.
+    let far = [3.0e5, 2.0e4, 6.0e3][random.usize(0..3)] * if random.bool() { 1.0 } else { -1.0 };
+    let point = [0, 15, anywhere][random.usize(0..3)];
     for k in 0..16 {
         let mut jitter = || if kind >= 10 { 0.0 } else { (random.f32() * 2.0 - 1.0) * rough };
         patch.x[k] = (k / 4) as f32 / 1.5 - 1.0 + jitter();
@@ -268,6 +270,8 @@ fn draws(random: &mut fastrand::Rng) -> Parts {
     let splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
     frame.levels = 1; // everything that is not culled is drawn, however large
     frame.bound = [4.0, 12.0, 40.0][random.usize(0..3)]; // now and then a neighbour may be larger: seams
+    // Fewer than there are tiles, some, more than are looked at at once.
+    let most = [3, 60, 60, 200][random.usize(0..4)];
     let mut draws = Vec::new();
     for _ in 0..400 {
         let surface = surface(random, patches.len(), splits.clone());
@@ -275,7 +279,7 @@ fn draws(random: &mut fastrand::Rng) -> Parts {
         let verdict = bound(&frame, patch, &objects[patch.object as usize], surface);
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {
-            if verdict.code != CULL && draws.len() < 60 {
+            if verdict.code != CULL && draws.len() < most {
                 draws.push(Draw::new(surface, verdict));
             }
         }

@@ -20,7 +20,7 @@ use crate::mutation::{Mutant, mutants, sample};
 use crate::report::check_stage;
 
 /// Mutants a file where nobody asks for another number.
-const MOST: usize = 3;
+const MOST: usize = 2;
 /// After this long a mutant counts as hanging; kernels that nobody changed are given four times as long.
 const PATIENCE: Duration = Duration::from_secs(45);
 /// Argument before file and number of a mutant, for the process that runs it.

@@ -1,5 +1,5 @@
 // Mirrors core/src/kernel/take.rs and core/src/schedule/adaptive.rs: the next batch is the top of the stack, as
-// much of it as is safe; drawn surfaces are forgotten.
+// much of it as is safe.
 
 static Control take(Control control, uint base) {
     control.taken = control.stack - base;
@@ -23,13 +23,6 @@ static uint lowest(__global const Limits *limits, uint entry, uint entry_level) 
     return entry > left ? entry - left : 0u;
 }
 
-// `flush` in core, which is a number's here.
-static Control flush_draws(Control control) {
-    control.waiting = 0u;
-    control.fresh = 0u;
-    return control;
-}
-
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void stage_take(__global const Limits *limits, __global const Surface *stack, __global Control *control) {
     __local uint base;
@@ -47,11 +40,5 @@ void stage_take(__global const Limits *limits, __global const Surface *stack, __
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
         *control = take(*control, base);
-    }
-}
-
-__kernel void stage_flush(__global Control *control) {
-    if (get_global_id(0) == 0) {
-        *control = flush_draws(*control);
     }
 }
