@@ -46,6 +46,18 @@ const ALLOWED: &[Allowed] = &[
         why: "whoever does it does the same, and doing it twice changes nothing more",
     },
     Allowed {
+        file: "take.cl",
+        line: "if (!is_safe(limits, count, count - first)) {",
+        operator: " - ",
+        why: "then every surface is looked at, and the answer is the same",
+    },
+    Allowed {
+        file: "take.cl",
+        line: "return taken + limits->levels <= limits->stack_room - count + 2u;",
+        operator: " + ",
+        why: "if it is the second: then every surface is looked at, and the answer is the same",
+    },
+    Allowed {
         file: "scan.cl",
         line: "const uint run = (taken + GROUP - 1u) / GROUP;",
         operator: " - ",
