@@ -16,6 +16,7 @@
 //! the choice of a device. The kernels and the plans that run them are in [`core`].
 
 mod backend;
+pub mod bench;
 pub mod bpt;
 pub mod devices;
 pub mod error;

@@ -317,3 +317,25 @@ fn auto_falls_back_to_the_cpu_and_says_so() {
     let built = Backend::Wgpu.is_built() || Backend::Ocl.is_built();
     assert_eq!(text.contains("no GPU was found, so the CPU renders"), built, "{text}");
 }
+
+#[test]
+fn bench_prints_the_table_and_writes_it() {
+    let (folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let (json, csv, svg) = (path("rows.json"), path("rows.csv"), path("plot.svg"));
+    let scene = scene.to_str().expect("UTF-8");
+    let schedulers = "--schedulers=stack,breadth,bounded,adaptive";
+    let arguments =
+        ["bench", scene, schedulers, "--batches=1,64", "--repeat=1", "--res=64x36", "--json", &json];
+    let output = micropoly(&[&arguments[..], &["--csv", &csv, "--plot", &svg]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let rows: Vec<serde_json::Value> =
+        serde_json::from_slice(&std::fs::read(json).expect("rows")).expect("JSON");
+    assert_eq!(rows.len(), 6);
+    assert!(
+        rows.iter().all(|row| row["processed"] == rows[0]["processed"] && row["drawn"] == rows[0]["drawn"])
+    );
+    assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 7);
+    assert_eq!(std::fs::read_to_string(csv).expect("rows").lines().count(), 7);
+    assert!(std::fs::read_to_string(svg).expect("a plot").contains("adaptive"));
+}

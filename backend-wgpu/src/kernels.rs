@@ -79,7 +79,7 @@ pub enum Kind {
 }
 
 impl Which {
-    /// All kernels, in the order of [`Which::index`].
+    /// All kernels.
     pub const ALL: [Self; 13] = [
         Self::Stage(Stage::Seed),
         Self::Stage(Stage::Take),

@@ -13,4 +13,4 @@ pub mod report;
 pub mod stages;
 pub mod trial;
 
-pub use outcome::{Case, Outcome, run};
+pub use outcome::{Case, Outcome, run, run_scheduled};

@@ -2,7 +2,9 @@
 
 use micropoly_core::abi::{Colour, Frame, Object, Patch, Sample};
 use micropoly_core::backend::Device;
+use micropoly_core::memory::Sizes;
 use micropoly_core::render::{Buffers, FramePlan};
+use micropoly_core::schedule::Scheduler;
 use serde::Serialize;
 
 /// Entries that are read from the device at once.
@@ -42,13 +44,30 @@ pub struct Outcome {
     pub micropolygons: u64,
 }
 
-/// Renders a case in batches of `batch` surfaces.
+/// Renders a case in batches of `batch` surfaces, with the default scheduler.
 ///
 /// # Errors
 /// What the plan or the device reports.
 pub fn run<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Outcome, D::Error> {
+    run_scheduled(device, case, Scheduler::default(), batch, 0)
+}
+
+/// Renders a case with any scheduler; `capacity` as in [`Sizes::capacity`].
+///
+/// # Errors
+/// What the plan or the device reports.
+pub fn run_scheduled<D: Device>(
+    device: &mut D,
+    case: &Case,
+    scheduler: Scheduler,
+    batch: u32,
+    capacity: u32,
+) -> Result<Outcome, D::Error> {
     let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-    let plan = FramePlan::new(case.frame, count(case.patches.len()), count(case.objects.len()), batch)?;
+    let (patches, objects) = (count(case.patches.len()), count(case.objects.len()));
+    let Frame { levels, width, height, .. } = case.frame;
+    let sizes = Sizes { patches, objects, batch, scheduler, capacity, levels, width, height };
+    let plan = FramePlan::with_sizes(case.frame, sizes)?;
     let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
     let counts = plan.run(device, &mut buffers, |_| {})?;
     let (samples, covered) = hash_samples(device, &buffers, plan.sizes().pixels())?;

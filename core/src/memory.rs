@@ -164,8 +164,9 @@ impl Sizes {
         self.width as u64 * self.height as u64
     }
 
-    /// Bytes of everything that does not depend on the batch.
-    const fn fixed_bytes(&self) -> u64 {
+    /// Bytes of everything that does not depend on batch and scheduler: scene and image.
+    #[must_use]
+    pub const fn fixed_bytes(&self) -> u64 {
         self.patch_bytes()
             + self.objects as u64 * size_of::<Object>() as u64
             + self.pixels() * (size_of::<Sample>() + size_of::<Colour>()) as u64

@@ -66,6 +66,8 @@ pub struct Buffers<B> {
 pub struct FramePlan {
     sizes: Sizes,
     frame: Frame,
+    /// Are surfaces diced and sampled, or only subdivided?
+    draws: bool,
 }
 
 impl FramePlan {
@@ -86,9 +88,16 @@ impl FramePlan {
     pub const fn with_sizes(frame: Frame, sizes: Sizes) -> Result<Self, PlanError> {
         let sizes = Sizes { levels: frame.levels, width: frame.width, height: frame.height, ..sizes };
         match sizes.checked() {
-            Ok(sizes) => Ok(Self { sizes, frame }),
+            Ok(sizes) => Ok(Self { sizes, frame, draws: true }),
             Err(error) => Err(error),
         }
+    }
+
+    /// The same plan without pictures: surfaces are bounded and split, and what is to be drawn is counted. For
+    /// measuring subdivision alone.
+    #[must_use]
+    pub const fn without_drawing(self) -> Self {
+        Self { draws: false, ..self }
     }
 
     /// Sizes of all buffers.
@@ -250,7 +259,9 @@ impl FramePlan {
         let image =
             Items::Image { width: self.sizes.width, height: self.sizes.height, rate: self.frame.rate };
         let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
-        device.dispatch(Stage::Draw, image, &draw)?;
+        if self.draws {
+            device.dispatch(Stage::Draw, image, &draw)?;
+        }
         device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
     }
 }

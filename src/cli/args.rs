@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Devices,
     /// Find out, device by device and stage by stage, whether all devices give the same bits.
     Conform(ConformArguments),
+    /// Measure subdivision: scheduler × batch × scene × backend (Weber 2014, Table 7.2).
+    Bench(BenchArguments),
 }
 
 #[derive(Debug, Args)]
@@ -79,6 +81,42 @@ pub(crate) struct ConformArguments {
     /// Write pictures of what differs (expected, actual, difference) to this folder.
     #[arg(long, value_name = "FOLDER", default_value = ".")]
     pub(crate) pictures: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchArguments {
+    /// Scenes to measure; without any, the built-in hair, columns, city and eye split.
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Which devices to measure on: `all`, or those of one backend.
+    #[arg(long, value_enum, default_value_t = Compared::Cpu)]
+    pub(crate) backend: Compared,
+    /// Schedulers to measure, separated by commas.
+    #[arg(
+        long = "schedulers",
+        value_enum,
+        value_delimiter = ',',
+        value_name = "LIST",
+        default_value = "breadth,bounded,adaptive"
+    )]
+    pub(crate) chosen: Vec<SchedulerChoice>,
+    /// Batch sizes of those schedulers that have one, separated by commas.
+    #[arg(long = "batches", value_delimiter = ',', value_name = "LIST", default_value = "256,1024,4096,16384",
+          value_parser = value_parser!(u32).range(1..=i64::from(MAX_BATCH)))]
+    pub(crate) batches: Vec<u32>,
+    /// Runs of each; the shortest counts.
+    #[arg(long, value_name = "N", default_value = "3", value_parser = value_parser!(u32).range(1..=1000))]
+    pub(crate) repeat: u32,
+    /// Write the table as JSON to this file; - writes to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Write the table as comma-separated values to this file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Plot rate over memory (Weber 2014, Fig. 7.2), a curve a scheduler, to this SVG file; of the first scene.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) plot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) frame: FrameArguments,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -169,6 +207,18 @@ pub(crate) enum SchedulerChoice {
     Bounded,
     /// As many as are safe for the stack, however small it is.
     Adaptive,
+}
+
+impl Compared {
+    /// The one backend that is meant, or none for all.
+    pub(crate) const fn only(self) -> Option<Backend> {
+        match self {
+            Self::All => None,
+            Self::Cpu => Some(Backend::Cpu),
+            Self::Wgpu => Some(Backend::Wgpu),
+            Self::Ocl => Some(Backend::Ocl),
+        }
+    }
 }
 
 impl From<SchedulerChoice> for Scheduler {

@@ -41,12 +41,7 @@ pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
 
 /// The devices that are to be compared.
 fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
-    let only = match choice {
-        Compared::All => None,
-        Compared::Cpu => Some(Backend::Cpu),
-        Compared::Wgpu => Some(Backend::Wgpu),
-        Compared::Ocl => Some(Backend::Ocl),
-    };
+    let only = choice.only();
     let mut all = Vec::new();
     for backend in Backend::ALL {
         if only.is_some_and(|only| only != backend) {

@@ -10,6 +10,7 @@ macro_rules! say {
 }
 
 mod args;
+mod bench;
 mod conform;
 mod devices;
 mod info;
@@ -34,6 +35,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Info(arguments) => info::run(&arguments),
         Command::Devices => devices::run(),
         Command::Conform(arguments) => conform::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
