@@ -16,6 +16,7 @@
 //! the choice of a device. The kernels and the plans that run them are in [`core`].
 
 mod backend;
+pub mod bench;
 pub mod bpt;
 pub mod devices;
 pub mod error;
@@ -34,6 +35,7 @@ pub use micropoly_core as core;
 pub use crate::backend::{Backend, render};
 pub use crate::core::camera::{Camera, FrameOptions, Light, Material, Profile};
 pub use crate::core::render::Counts;
+pub use crate::core::schedule::Scheduler;
 pub use crate::error::{Error, Result};
 pub use crate::gregory::GregoryPatch;
 pub use crate::image::Image;

@@ -7,6 +7,7 @@ use micropoly_core::backend::Device;
 use micropoly_core::camera::FrameOptions;
 use micropoly_core::memory::{DEFAULT_BATCH, Room, Sizes};
 use micropoly_core::render::{Counts, FramePlan};
+use micropoly_core::schedule::Scheduler;
 
 use crate::backend::Backend;
 use crate::error::{Error, Result};
@@ -43,6 +44,11 @@ pub struct RenderOptions {
     pub frame: FrameOptions,
     /// Batch size or memory budget. The image does not depend on it.
     pub batch: Batch,
+    /// How the stack is worked off. The image does not depend on it.
+    pub scheduler: Scheduler,
+    /// Entries of ADAPTIVE's stack; 0 = as many as it takes to be hardly ever slower than with more. The image
+    /// does not depend on it.
+    pub capacity: u32,
     /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
     pub threads: usize,
 }
@@ -84,13 +90,12 @@ pub fn render_on<D: Device>(
     let room = room_on(&device, &options.frame);
     let sizes = chosen_sizes(scene, options, room)?;
     let notes = note_on(options, &sizes, room).into_iter().collect();
-    let plan = FramePlan::new(frame, sizes.patches, sizes.objects, sizes.batch);
-    let plan = plan.and_then(|plan| plan.with_faces(sizes.faces)).map_err(Error::Plan)?;
+    let plan = FramePlan::with_sizes(frame, sizes).map_err(Error::Plan)?;
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::Device(error.to_string());
-    let buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
+    let mut buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
     let setup = start.elapsed().as_secs_f64();
-    let counts = plan.run(&mut device, &buffers, progress).map_err(failed)?;
+    let counts = plan.run(&mut device, &mut buffers, progress).map_err(failed)?;
     let bytes_allocated = device.bytes_allocated();
     let resolving = Instant::now();
     let image = resolve(&mut device, &buffers.colours, scene, &options.frame).map_err(failed)?;
@@ -117,7 +122,13 @@ fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room) -> Result<Si
     };
     let (patches, faces) = (count(scene.patch_count()), count(scene.gregory_count()));
     let objects = count(scene.objects.len());
-    let sizes = Sizes { patches, faces, objects, batch, levels, width, height }.checked();
+    if options.scheduler == Scheduler::Breadth && bytes != u64::MAX {
+        let problem = "no budget bounds the memory of the breadth scheduler";
+        return Err(Error::scene(problem, "leave out --memory, or choose another --scheduler"));
+    }
+    let (scheduler, capacity) = (options.scheduler, options.capacity);
+    let sizes =
+        Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height }.checked();
     sizes.and_then(|sizes| sizes.fitted(Room { bytes, ..room })).map_err(Error::Plan)
 }
 

@@ -57,8 +57,10 @@ pub struct Surfaces {
     pub depth_limited: u64,
     /// Largest number of surfaces that lay on the stack.
     pub max_stack: u64,
-    /// The proven maximum of it.
-    pub stack_bound: u64,
+    /// The proven maximum of it; BREADTH has none.
+    pub stack_bound: Option<u64>,
+    /// Batches that were taken.
+    pub batches: u64,
 }
 
 /// Options, as they took effect.
@@ -74,6 +76,8 @@ pub struct Options {
     pub dice: u32,
     /// Levels.
     pub max_depth: u32,
+    /// How the stack was worked off.
+    pub scheduler: &'static str,
     /// Surfaces a batch.
     pub batch: u32,
     /// The memory budget in bytes, if one was given.
@@ -106,7 +110,8 @@ impl Stats {
                 culled: counts.culled,
                 depth_limited: counts.depth_limited,
                 max_stack: counts.max_stack,
-                stack_bound: sizes.stack_entries(),
+                stack_bound: sizes.stack_bound(),
+                batches: counts.batches,
             },
             micropolygons: counts.micropolygons,
             bytes_allocated: *bytes_allocated,
@@ -124,6 +129,7 @@ fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
         bound: frame.bound,
         dice: frame.rate,
         max_depth: frame.levels,
+        scheduler: sizes.scheduler.name(),
         batch: sizes.batch,
         memory: match options.batch {
             Batch::Memory(bytes) => Some(bytes),

@@ -68,6 +68,10 @@ impl<D: Device> Device for Timed<D> {
         self.device.read(buffer, first, out)
     }
 
+    fn copy(&mut self, from: &D::Buffer, to: &D::Buffer, entries: u64) -> Result<(), D::Error> {
+        self.device.copy(from, to, entries)
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&D::Buffer]) -> Result<(), D::Error> {
         let start = Instant::now();
         let outcome = self.device.dispatch(stage, items, buffers);

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use micropoly::Backend;
 use tempfile::TempDir;
 
 #[path = "mscene_writer/generated.rs"]
@@ -177,8 +178,9 @@ fn options_that_cannot_be_are_refused() {
         ("--memory=-1", "--memory"),
         ("--memory=1KiB", "use --memory"),
         ("--threads=-1", "--threads"),
-        ("--backend=wgpu", "wgpu is not available"),
         ("--backend=metal", "metal"),
+        ("--device=no such device", "no device"),
+        ("--device=0", "--device"),
         ("--stats=/nowhere/stats.json", "cannot be written"),
     ] {
         let (code, text, image) = render(&scene, &[argument]);
@@ -283,4 +285,60 @@ fn info_says_what_is_in_a_scene() {
     for what in ["32 bicubic", "stack bound", "camera"] {
         assert!(text.contains(what), "{text}");
     }
+}
+
+/// Renders without any driver for Vulkan or OpenCL; gives the exit code and what was said.
+fn without_drivers(scene: &Path, backend: &str) -> (i32, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_micropoly"))
+        .args(["render", scene.to_str().expect("UTF-8"), "--res", "32x32", "--backend", backend, "-o"])
+        .arg(scene.with_file_name("out.png"))
+        .env("VK_DRIVER_FILES", "/nowhere")
+        .env("VK_ICD_FILENAMES", "/nowhere")
+        .env("OCL_ICD_VENDORS", "/nowhere")
+        .output()
+        .expect("runs");
+    (output.status.code().expect("no signal"), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn a_backend_without_a_driver_says_what_is_missing() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    assert_eq!(without_drivers(&scene, "cpu").0, 0);
+    for (backend, package) in [(Backend::Wgpu, "mesa-vulkan-drivers"), (Backend::Ocl, "pocl-opencl-icd")] {
+        let (code, text) = without_drivers(&scene, backend.name());
+        let what = if backend.is_built() { package } else { "--features" };
+        assert!(code == 2 && text.contains("is not available") && text.contains(what), "{code}: {text}");
+        assert!(text.contains("--backend cpu"), "{text}");
+    }
+}
+
+#[test]
+fn auto_falls_back_to_the_cpu_and_says_so() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let (code, text) = without_drivers(&scene, "auto");
+    assert_eq!(code, 0, "{text}");
+    let built = Backend::Wgpu.is_built() || Backend::Ocl.is_built();
+    assert_eq!(text.contains("no GPU was found, so the CPU renders"), built, "{text}");
+}
+
+#[test]
+fn bench_prints_the_table_and_writes_it() {
+    let (folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let (json, csv, svg) = (path("rows.json"), path("rows.csv"), path("plot.svg"));
+    let scene = scene.to_str().expect("UTF-8");
+    let schedulers = "--schedulers=stack,breadth,bounded,adaptive";
+    let arguments =
+        ["bench", scene, schedulers, "--batches=1,64", "--repeat=1", "--res=64x36", "--json", &json];
+    let output = micropoly(&[&arguments[..], &["--csv", &csv, "--plot", &svg]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let rows: Vec<serde_json::Value> =
+        serde_json::from_slice(&std::fs::read(json).expect("rows")).expect("JSON");
+    assert_eq!(rows.len(), 6);
+    assert!(
+        rows.iter().all(|row| row["processed"] == rows[0]["processed"] && row["drawn"] == rows[0]["drawn"])
+    );
+    assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 7);
+    assert_eq!(std::fs::read_to_string(csv).expect("rows").lines().count(), 7);
+    assert!(std::fs::read_to_string(svg).expect("a plot").contains("adaptive"));
 }

@@ -8,7 +8,7 @@ use micropoly::core::abi::PARAM_ONE;
 use micropoly::core::camera::Profile;
 use micropoly::core::kernel::dice_gregory::evaluate_gregory;
 use micropoly::core::patch::{Faces, Net};
-use micropoly::{Batch, Counts, DeviceScene, FrameOptions, RenderOptions, Rendering, Scene, render};
+use micropoly::{Counts, DeviceScene, FrameOptions, RenderOptions, Rendering, Scene, Scheduler, render};
 
 fn original(test: &str, name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/micropolis").join(name);
@@ -22,7 +22,7 @@ fn original(test: &str, name: &str) -> Option<PathBuf> {
 /// Renders as in the thesis, 1280×720 at 8 pixels and 23 levels, all surfaces of a level at once.
 fn rendered(path: &Path, profile: Profile) -> Rendering {
     let frame = FrameOptions { profile, rate: 1, ..FrameOptions::default() };
-    let options = RenderOptions { frame, batch: Batch::Surfaces(2_000_000), ..RenderOptions::default() };
+    let options = RenderOptions { frame, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
     render(&Scene::load(path).expect("a scene"), &options, |_| {}).expect("renders")
 }
 

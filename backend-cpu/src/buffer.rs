@@ -89,6 +89,20 @@ impl CpuBuffer {
         Ok(())
     }
 
+    /// Copies the first `entries` entries of another buffer.
+    pub(crate) fn copy(&self, from: &Self, entries: u64) -> Result<(), CpuError> {
+        let bytes = entries.saturating_mul(self.layout.size as u64);
+        if from.layout != self.layout || bytes > self.bytes.min(from.bytes) {
+            return Err(CpuError::Mismatch { buffer: self.name, wanted: from.layout.name });
+        }
+        let source = from.blocks.try_borrow().map_err(|_| CpuError::InUse { buffer: from.name })?;
+        let mut target = self.blocks.try_borrow_mut().map_err(|_| CpuError::InUse { buffer: self.name })?;
+        let bytes = bytes as usize;
+        let source: &[u8] = bytemuck::cast_slice(&source);
+        bytemuck::cast_slice_mut::<_, u8>(&mut target)[..bytes].copy_from_slice(&source[..bytes]);
+        Ok(())
+    }
+
     /// Copies entries from `first` on to `out`.
     pub(crate) fn read<T: Shared>(&self, first: u64, out: &mut [T]) -> Result<(), CpuError> {
         let first = usize::try_from(first).unwrap_or(usize::MAX);

@@ -123,6 +123,10 @@ impl Device for CpuDevice {
         buffer.read(first, out)
     }
 
+    fn copy(&mut self, from: &CpuBuffer, to: &CpuBuffer, entries: u64) -> Result<(), CpuError> {
+        to.copy(from, entries)
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&CpuBuffer]) -> Result<(), CpuError> {
         let bindings = stage.bindings();
         if bindings.len() != buffers.len() {

@@ -38,8 +38,9 @@ pub(crate) fn seed(buffers: Buffers<'_, '_>, patches: u32) -> Result<(), CpuErro
 
 pub(crate) fn take(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
     let limits = buffers[0].view::<Limits>()?[0];
-    let control = &mut buffers[1].view_mut::<Control>()?[0];
-    *control = taking::take(*control, limits.batch);
+    let stack = buffers[1].view::<Surface>()?;
+    let control = &mut buffers[2].view_mut::<Control>()?[0];
+    *control = taking::take(*control, &limits, &stack);
     Ok(())
 }
 

@@ -73,6 +73,23 @@ impl OclBuffer {
         Err(OclError::Mismatch { buffer: self.name, wanted: T::LAYOUT.name })
     }
 
+    /// Copies the first `entries` entries of another buffer.
+    pub(crate) fn copy(&self, queue: &CommandQueue, from: &Self, entries: u64) -> Result<(), OclError> {
+        if from.layout != self.layout || entries > self.entries.min(from.entries) {
+            return Err(OclError::Mismatch { buffer: self.name, wanted: from.layout.name });
+        }
+        let bytes = entries as usize * self.layout.size;
+        if bytes == 0 {
+            return Ok(());
+        }
+        // SAFETY: both have so many bytes, and the queue keeps order.
+        unsafe {
+            queue.enqueue_copy_buffer(&from.memory.borrow(), &mut self.memory.borrow_mut(), 0, 0, bytes, &[])
+        }
+        .map_err(OclError::driver("copying a buffer"))?;
+        Ok(())
+    }
+
     /// Copies `data` to the start.
     pub(crate) fn write<T: Shared>(&self, queue: &CommandQueue, data: &[T]) -> Result<(), OclError> {
         self.check::<T>(0, data.len())?;

@@ -258,6 +258,10 @@ impl Device for OclDevice {
         buffer.read(&self.queue, first, out)
     }
 
+    fn copy(&mut self, from: &OclBuffer, to: &OclBuffer, entries: u64) -> Result<(), OclError> {
+        to.copy(&self.queue, from, entries)
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Result<(), OclError> {
         check_bindings(stage, buffers)?;
         if let (Stage::Draw, Items::Image { width, height, rate }) = (stage, items) {

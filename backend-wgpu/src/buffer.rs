@@ -86,6 +86,15 @@ impl WgpuBuffer {
         Err(WgpuError::Mismatch { buffer: self.name, wanted: layout.name })
     }
 
+    /// Bytes of the first `entries` entries of another buffer, if they go here; pieces cannot be copied.
+    pub(crate) fn bytes_from(&self, from: &Self, entries: u64) -> Result<u64, WgpuError> {
+        let fits = entries <= self.entries.min(from.entries);
+        if from.layout == self.layout && fits && self.more.is_none() {
+            return Ok(entries * self.layout.size as u64);
+        }
+        Err(WgpuError::Mismatch { buffer: self.name, wanted: from.layout.name })
+    }
+
     /// Offset in bytes of `count` entries from `first` on, if it has them.
     pub(crate) fn offset_of<T: Shared>(&self, first: u64, count: usize) -> Result<u64, WgpuError> {
         self.check_layout(T::LAYOUT)?;

@@ -53,13 +53,21 @@ impl WgpuDevice {
     /// # Errors
     /// When there is no such device, it refuses, a kernel does not compile, or an operation is not exact.
     pub fn open(index: usize, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
-        let adapters = adapters(&instance());
-        let adapter = adapters.get(index).ok_or(WgpuError::NoDevice { index, found: adapters.len() })?;
-        let mut device = Self::with_kernels(adapter, edit)?;
+        let mut device = Self::open_unchecked(index, edit)?;
         match known::check(&mut device)? {
             None => Ok(device),
             Some(mismatch) => Err(WgpuError::Inexact { device: device.name, mismatch }),
         }
+    }
+
+    /// The same for tests, without a check of its arithmetic.
+    ///
+    /// # Errors
+    /// When there is no such device, it refuses, or a kernel does not compile.
+    pub fn open_unchecked(index: usize, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
+        let adapters = adapters(&instance());
+        let adapter = adapters.get(index).ok_or(WgpuError::NoDevice { index, found: adapters.len() })?;
+        Self::with_kernels(adapter, edit)
     }
 
     fn with_kernels(adapter: &wgpu::Adapter, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
@@ -384,6 +392,13 @@ impl Device for WgpuDevice {
             self.read_piece(piece, within, now)?;
             (out, offset) = (later, offset + now.len() as u64);
         }
+        self.checked()
+    }
+
+    fn copy(&mut self, from: &WgpuBuffer, to: &WgpuBuffer, entries: u64) -> Result<(), WgpuError> {
+        let bytes = to.bytes_from(from, entries)?;
+        let (from, to) = (from.memory().clone(), to.memory().clone());
+        self.encoder().copy_buffer_to_buffer(&from, 0, &to, 0, bytes);
         self.checked()
     }
 

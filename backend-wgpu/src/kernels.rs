@@ -4,8 +4,12 @@ use micropoly_core::stage::{Access, Stage};
 
 use crate::error::WgpuError;
 
-/// Changes a kernel file before it is compiled, given its name and source: for mutation tests.
+/// Changes a kernel file before it is compiled, given its name and source: for mutation tests. Nothing at all
+/// in the place of a kernel's own file leaves that kernel out: it is opened faster, and does nothing.
 pub type Edit<'a> = &'a dyn Fn(&str, &str) -> String;
+
+/// A kernel that does nothing.
+const NOTHING: &str = "@compute @workgroup_size(1) fn main() {}";
 
 /// One WGSL file: its name and its text.
 pub type File = (&'static str, &'static str);
@@ -85,7 +89,7 @@ pub enum Kind {
 }
 
 impl Which {
-    /// All kernels, in the order of [`Which::index`].
+    /// All kernels.
     pub const ALL: [Self; 15] = [
         Self::Stage(Stage::Seed),
         Self::Stage(Stage::Take),
@@ -125,16 +129,24 @@ impl Which {
         }
     }
 
-    /// The stage that it is part of; none if it only counts groups for several.
+    /// The stages that run it.
     #[must_use]
-    pub const fn stage(self) -> Option<Stage> {
+    pub const fn stages(self) -> &'static [Stage] {
         match self {
-            Self::Stage(stage) => Some(stage),
-            Self::BoundAny => Some(Stage::Bound),
-            Self::Arrange => None,
-            Self::ArrangeDraw | Self::Draw | Self::DrawAny | Self::ArrangeTiles | Self::Tiles(_) => {
-                Some(Stage::Draw)
-            }
+            Self::Stage(Stage::Seed) => &[Stage::Seed],
+            Self::Stage(Stage::Take) => &[Stage::Take],
+            Self::Stage(Stage::Bound) | Self::BoundAny => &[Stage::Bound],
+            Self::Stage(Stage::Scan) => &[Stage::Scan],
+            Self::Stage(Stage::Split) => &[Stage::Split],
+            Self::Stage(Stage::Flush) => &[Stage::Flush],
+            Self::Stage(Stage::KnownAnswers) => &[Stage::KnownAnswers],
+            Self::Arrange => &[Stage::Bound, Stage::Split],
+            Self::Stage(Stage::Draw)
+            | Self::ArrangeDraw
+            | Self::Draw
+            | Self::DrawAny
+            | Self::ArrangeTiles
+            | Self::Tiles(_) => &[Stage::Draw],
         }
     }
 
@@ -143,7 +155,7 @@ impl Which {
     pub const fn files(self) -> &'static [File] {
         match self {
             Self::Stage(Stage::Seed) => &[GEN, ITEMS, SEED],
-            Self::Stage(Stage::Take) => &[GEN, TAKE],
+            Self::Stage(Stage::Take) => &[GEN, SURFACE, TAKE],
             Self::Stage(Stage::Bound) => {
                 &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND_BEZIER, BOUND]
             }
@@ -250,11 +262,14 @@ pub(crate) fn compiled(
     compile(device, which.name(), &source(which.files(), edit), &access)
 }
 
+/// All files after each other; [`NOTHING`] if the kernel's own is edited away.
 fn source(files: &[File], edit: Option<Edit<'_>>) -> String {
-    files
-        .iter()
-        .map(|(name, text)| edit.map_or_else(|| (*text).to_owned(), |edit| edit(name, text)))
-        .collect()
+    let edited = |(name, text): &File| edit.map_or_else(|| (*text).to_owned(), |edit| edit(name, text));
+    let texts: Vec<String> = files.iter().map(edited).collect();
+    match texts.last() {
+        Some(own) if own.is_empty() => NOTHING.to_owned(),
+        _ => texts.concat(),
+    }
 }
 
 fn compile(

@@ -1,11 +1,14 @@
 //! Inputs for every stage: random ones, and the nasty cases among them (collapsed and folded patches, points
-//! at and behind the eye, equal depths, full buffers, every dice rate).
+//! at and behind the eye, control points far away, ranges that may not be split again, equal depths, full
+//! buffers, every dice rate).
+
+use std::ops::RangeInclusive;
 
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_WEBER, Frame, Limits, MAX_LEVELS, Object, Patch,
-    Sample, Shared, Slot, Surface, Verdict,
+    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_WEBER, Frame, Limits, MAX_LEVELS, MAX_SPLITS,
+    Object, PARAM_ONE, Patch, Sample, Shared, Slot, Surface, Verdict,
 };
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::kernel::bound::bound_any;
@@ -17,7 +20,7 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 12;
+pub const ROUNDS: u64 = 32;
 
 fn words<T: NoUninit>(entries: &[T]) -> Vec<u32> {
     bytemuck::cast_slice::<T, u8>(entries)
@@ -74,8 +77,24 @@ fn seed(random: &mut fastrand::Rng) -> Parts {
 }
 
 fn take(random: &mut fastrand::Rng) -> Parts {
-    let limits = Limits { batch: random.u32(1..100_000), ..Limits::default() };
-    (Items::Count(1), vec![words(&[limits]), words(&[control(random)])])
+    let levels = random.u32(1..=41);
+    let most = [4, 300, 6000][random.usize(0..3)];
+    let count = random.u32(0..most);
+    // Levels rise from the bottom to the top, as they do in every frame; now and then they do not.
+    let mut all: Vec<u32> = (0..count).map(|_| random.u32(0..levels)).collect();
+    if random.u8(0..8) > 0 {
+        all.sort_unstable();
+    }
+    let stack: Vec<Surface> = all
+        .iter()
+        .map(|&level| Surface { shape: level.min(20) | level.saturating_sub(20) << 5, ..Surface::root(0) })
+        .collect();
+    let spare = [50, 2 * count + 50][random.usize(0..2)];
+    let stack_room = count + random.u32(1..spare);
+    let limits = Limits { batch: random.u32(1..2 * count + 2), levels, stack_room, ..Limits::default() };
+    let control = Control { stack: count, ..control(random) };
+    let room = if stack.is_empty() { vec![Surface::default()] } else { stack };
+    (Items::Count(1), vec![words(&[limits]), words(&room), words(&[control])])
 }
 
 /// A view from near or inside a unit ball around the origin.
@@ -93,9 +112,15 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
         fov,
         near,
     });
+    let (mut camera, mut size) = (camera, (random.u32(1..200), random.u32(1..150)));
+    if random.u8(0..3) == 0 {
+        // 32 pixels from a distance of 1: vertices of even patches lie on the centres of pixels.
+        camera = Camera { view: DAffine3::from_translation(DVec3::NEG_Z), fov: 90.8882888662, near: 0.05 };
+        size = (65, 65);
+    }
     let options = FrameOptions {
-        width: random.u32(1..200),
-        height: random.u32(1..150),
+        width: size.0,
+        height: size.1,
         bound: [3.0, 8.0, 40.0][random.usize(0..3)],
         rate: 1 << random.u32(0..=4),
         levels: random.u32(1..=41),
@@ -109,12 +134,17 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
     (frame, vec![object(0, 0.0), object(random.u32(0..=10), 0.4)])
 }
 
-/// A patch: smooth, rough, flat, collapsed along an edge, to a line or to a point.
+/// A patch: smooth, rough, even, flat, collapsed along an edge, to a line or to a point, with a control point far
+/// away (what rounding can do is then many pixels), or so long that ranges split most often are large.
 fn patch(random: &mut fastrand::Rng) -> Patch {
     let mut patch = Patch { object: random.u32(0..2), ..Patch::default() };
-    let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..8));
+    let (rough, kind) = ([0.05, 0.4, 2.0][random.usize(0..3)], random.usize(0..12));
+    let anywhere = random.usize(0..16);
+    // So far that the rest seems flat beside it, or nearly.
+    let far = [3.0e5, 2.0e4, 6.0e3][random.usize(0..3)] * if random.bool() { 1.0 } else { -1.0 };
+    let point = [0, 15, anywhere][random.usize(0..3)];
     for k in 0..16 {
-        let mut jitter = || (random.f32() * 2.0 - 1.0) * rough;
+        let mut jitter = || if kind >= 10 { 0.0 } else { (random.f32() * 2.0 - 1.0) * rough };
         patch.x[k] = (k / 4) as f32 / 1.5 - 1.0 + jitter();
         patch.y[k] = (k % 4) as f32 / 1.5 - 1.0 + jitter();
         patch.z[k] = jitter();
@@ -129,20 +159,42 @@ fn patch(random: &mut fastrand::Rng) -> Patch {
         };
         (patch.x[k], patch.y[k], patch.z[k]) = (patch.x[from], patch.y[from], patch.z[from]);
     }
-    if kind == 4 {
-        patch.z = [0.25; 16];
+    match kind {
+        4 => patch.z = [0.25; 16],
+        5 => patch.x[point] = far,
+        6 => patch.y[point] = far,
+        7 => patch.z[point] = far,
+        8 => (0..16).for_each(|k| patch.x[k] = ((k / 4) as f32 / 1.5 - 1.0) * 4.0e6),
+        9 => (0..16).for_each(|k| patch.y[k] = ((k % 4) as f32 / 1.5 - 1.0) * 4.0e6),
+        11 => patch.x = patch.x.map(|x| -x), // seen from the other side
+        _ => (),
     }
     patch
 }
 
-fn surface(random: &mut fastrand::Rng, patches: u32, deepest: u32) -> Surface {
-    let mut surface = Surface::root(random.u32(0..patches));
-    for _ in 0..random.u32(0..=deepest) {
-        let along_u = surface.v_level() >= 20 || (surface.u_level() < 20 && random.bool());
-        let halves = if along_u { surface.halves_u() } else { surface.halves_v() };
-        surface = halves[usize::from(random.bool())];
+/// A range anywhere, at a corner or about the middle; now and then one parameter is split to the end.
+fn surface(random: &mut fastrand::Rng, patches: u32, splits: RangeInclusive<u32>) -> Surface {
+    let deepest = *splits.end();
+    let splits = random.u32(splits);
+    let along_u = if random.bool() { splits / 2 } else { random.u32(0..=splits) };
+    let mut levels = [along_u, splits - along_u].map(|level| level.min(MAX_SPLITS));
+    if deepest >= MAX_SPLITS && random.u8(0..4) == 0 {
+        levels[random.usize(0..2)] = MAX_SPLITS;
     }
-    surface
+    let place = random.u8(0..8);
+    let mut start = |level: u32| {
+        let (count, size) = (1 << level, PARAM_ONE >> level);
+        let index = match place {
+            0 => 0,
+            1 => count / 2,
+            2 => (count / 2).max(1) - 1,
+            3 => count - 1,
+            _ => random.u32(0..count),
+        };
+        index * size
+    };
+    let (u, v) = (start(levels[0]), start(levels[1]));
+    Surface { patch_id: random.u32(0..patches), u, v, shape: levels[0] | levels[1] << 5 }
 }
 
 /// Number of patches of a scene; every third is a Gregory patch in half of all scenes.
@@ -178,7 +230,7 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
     let (frame, objects, patches) = scene(random);
     let (base, taken) = (random.u32(0..300), random.u32(0..2000));
     let deepest = [4, 12, 40][random.usize(0..3)];
-    let stack: Vec<Surface> = (0..base + taken).map(|_| surface(random, PATCHES, deepest)).collect();
+    let stack: Vec<Surface> = (0..base + taken).map(|_| surface(random, PATCHES, 0..=deepest)).collect();
     let control = Control { base, taken, stack: base + taken, ..Control::default() };
     let room = (taken + random.u32(1..100)) as usize;
     let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
@@ -196,8 +248,9 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
 
 /// A batch of surfaces with verdicts, and counts before it.
 fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
-    let taken = random.u32(1..3000);
-    let surfaces = (0..taken).map(|_| surface(random, PATCHES, 18)).collect();
+    let most = [3000, 80][random.usize(0..2)];
+    let taken = random.u32(1..most);
+    let surfaces = (0..taken).map(|_| surface(random, PATCHES, 0..=18)).collect();
     let only = random.u32(0..8);
     let code = |random: &mut fastrand::Rng| {
         if only <= DRAW_LIMITED { only } else { random.u32(CULL..=DRAW_LIMITED) }
@@ -238,16 +291,19 @@ fn splits(random: &mut fastrand::Rng) -> Parts {
 
 fn draws(random: &mut fastrand::Rng) -> Parts {
     let (mut frame, objects, patches) = scene(random);
-    let deepest = [3, 8, 14][random.usize(0..3)];
+    let splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
     // Whatever is not culled is drawn, however large; but Weber's rules cull what is at the deepest level.
     frame.levels = if frame.flags & FLAG_WEBER == 0 { 1 } else { MAX_LEVELS };
+    frame.bound = [4.0, 12.0, 40.0][random.usize(0..3)]; // now and then a neighbour may be larger: seams
+    // Fewer than there are tiles, some, more than are looked at at once.
+    let most = [3, 60, 60, 200][random.usize(0..4)];
     let mut draws = Vec::new();
     for _ in 0..400 {
-        let surface = surface(random, PATCHES, deepest);
+        let surface = surface(random, PATCHES, splits.clone());
         let verdict = bound_any(&frame, &objects, &patches, surface);
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {
-            if matches!(verdict.code, DRAW | DRAW_LIMITED) && draws.len() < 60 {
+            if matches!(verdict.code, DRAW | DRAW_LIMITED) && draws.len() < most {
                 draws.push(Draw::new(surface, verdict));
             }
         }
@@ -279,7 +335,7 @@ fn sample(random: &mut fastrand::Rng) -> Sample {
 }
 
 fn known(random: &mut fastrand::Rng) -> Parts {
-    let first = random.u32(0..30_000);
+    let first = random.u32(0..33_000); // up to operations that there are not
     let questions: Vec<_> = (first..first + 5000).map(question).collect();
     let frame = words(&[Frame::default()]);
     (Items::Count(5000), vec![frame, words(&questions), empty::<u32>(5000)])

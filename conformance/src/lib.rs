@@ -6,9 +6,11 @@
 
 pub mod corpus;
 pub mod headers;
+pub mod mirrors;
 pub mod mutation;
 mod outcome;
 pub mod report;
 pub mod stages;
+pub mod trial;
 
-pub use outcome::{Case, Outcome, run};
+pub use outcome::{Case, Outcome, run, run_scheduled};

@@ -3,8 +3,10 @@
 use micropoly_core::abi::{Colour, Frame, Object, Patch, Sample};
 use micropoly_core::backend::Device;
 use micropoly_core::error::PlanError;
+use micropoly_core::memory::Sizes;
 use micropoly_core::patch::gregory::patch_count;
 use micropoly_core::render::{Buffers, FramePlan};
+use micropoly_core::schedule::Scheduler;
 use serde::Serialize;
 
 /// Entries that are read from the device at once.
@@ -24,15 +26,18 @@ pub struct Case {
 }
 
 impl Case {
-    /// Plans its frame in batches of `batch` surfaces.
+    /// Plans its frame; `capacity` as in [`Sizes::capacity`].
     ///
     /// # Errors
     /// What the plan reports.
-    pub fn plan(&self, batch: u32) -> Result<FramePlan, PlanError> {
+    pub fn plan(&self, scheduler: Scheduler, batch: u32, capacity: u32) -> Result<FramePlan, PlanError> {
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         let patches = patch_count(&self.patches);
-        let plan = FramePlan::new(self.frame, count(patches), count(self.objects.len()), batch)?;
-        plan.with_faces(count(self.patches.len() - patches))
+        let faces = count(self.patches.len() - patches);
+        let (patches, objects) = (count(patches), count(self.objects.len()));
+        let Frame { levels, width, height, .. } = self.frame;
+        let sizes = Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height };
+        FramePlan::with_sizes(self.frame, sizes)
     }
 }
 
@@ -57,14 +62,28 @@ pub struct Outcome {
     pub micropolygons: u64,
 }
 
-/// Renders a case in batches of `batch` surfaces.
+/// Renders a case in batches of `batch` surfaces, with the default scheduler.
 ///
 /// # Errors
 /// What the plan or the device reports.
 pub fn run<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Outcome, D::Error> {
-    let plan = case.plan(batch)?;
-    let buffers = plan.prepare(device, &case.objects, &case.patches)?;
-    let counts = plan.run(device, &buffers, |_| {})?;
+    run_scheduled(device, case, Scheduler::default(), batch, 0)
+}
+
+/// Renders a case with any scheduler; `capacity` as in [`Sizes::capacity`].
+///
+/// # Errors
+/// What the plan or the device reports.
+pub fn run_scheduled<D: Device>(
+    device: &mut D,
+    case: &Case,
+    scheduler: Scheduler,
+    batch: u32,
+    capacity: u32,
+) -> Result<Outcome, D::Error> {
+    let plan = case.plan(scheduler, batch, capacity)?;
+    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    let counts = plan.run(device, &mut buffers, |_| {})?;
     let (samples, covered) = hash_samples(device, &buffers, plan.sizes().pixels())?;
     Ok(Outcome {
         samples,

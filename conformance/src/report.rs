@@ -1,7 +1,10 @@
 //! A device against a reference: every stage alone, then whole images and counts.
 
+use std::collections::BTreeMap;
+
 use micropoly_core::abi::Colour;
 use micropoly_core::backend::Device;
+use micropoly_core::schedule::Scheduler;
 use micropoly_core::stage::Stage;
 use serde::Serialize;
 
@@ -44,6 +47,8 @@ pub struct DeviceReport {
     pub backend: String,
     /// Name of the device.
     pub device: String,
+    /// Driver and limits, by name.
+    pub details: BTreeMap<&'static str, String>,
     /// Each stage alone.
     pub stages: Vec<StageReport>,
     /// Whole images and counts.
@@ -123,9 +128,9 @@ pub fn check_case<R: Device, D: Device>(
 /// # Errors
 /// What the plan or the device reports.
 pub fn colours<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Vec<Colour>, D::Error> {
-    let plan = case.plan(batch)?;
-    let buffers = plan.prepare(device, &case.objects, &case.patches)?;
-    plan.run(device, &buffers, |_| {})?;
+    let plan = case.plan(Scheduler::default(), batch, 0)?;
+    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    plan.run(device, &mut buffers, |_| {})?;
     let mut colours = vec![Colour::default(); plan.sizes().pixels() as usize];
     device.read(&buffers.colours, 0, &mut colours)?;
     Ok(colours)

@@ -394,6 +394,8 @@ shared_structs! {
         stack_room: u32,
         /// Entries of the draw buffer.
         draw_room: u32,
+        /// Number of levels: [`Frame::levels`].
+        levels: u32,
     }
 
     /// The nearest micropolygon at one sample of the image. All zero: nothing there.

@@ -56,6 +56,13 @@ pub trait Device {
         out: &mut [T],
     ) -> Result<(), Self::Error>;
 
+    /// Copies the first `entries` entries of one buffer to another of the same layout, after all stages
+    /// dispatched so far.
+    ///
+    /// # Errors
+    /// When a buffer is too small or the layouts differ, or the device failed.
+    fn copy(&mut self, from: &Self::Buffer, to: &Self::Buffer, entries: u64) -> Result<(), Self::Error>;
+
     /// Runs a stage over its buffers, given in the order of [`Stage::bindings`], after all stages
     /// dispatched before it.
     ///

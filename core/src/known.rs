@@ -80,7 +80,8 @@ pub fn question(number: u32) -> Question {
         11 => Question { operation, a: float_bits(a, 100, 147), b: 0, c: 0 },
         12 => Question { operation, a: float_bits(a, 100, 156), b: 0, c: 0 },
         13 => Question { operation, a: ((a as i32) >> 7) as u32, b: 0, c: 0 },
-        14 | 15 => Question { operation, a: float_bits(a, 30, 250), b: 0, c: 0 },
+        14 => Question { operation, a: float_bits(a, 30, 250), b: 0, c: 0 },
+        15 => Question { operation, a: float_bits(a, 0, 255), b: 0, c: 0 },
         _ => Question { operation, a, b, c: 0 },
     }
 }

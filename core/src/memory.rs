@@ -3,13 +3,19 @@
 //! The bound on the surface stack sharpens Weber 2014, sec. 4.3: `n` roots, batches of `p`, levels
 //! `0 .. k`, where level `k - 1` is never split. The stack stays sorted by level, and a batch that is full
 //! always takes the deepest surfaces, so each of the `k - 1` levels can leave at most one batch behind.
+//! `docs/proofs/stack.md` has the proof.
 
 use crate::abi::{
     Colour, Control, Draw, Frame, Limits, MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface,
     Verdict,
 };
 use crate::error::PlanError;
+use crate::schedule::Scheduler;
 
+/// Largest stack.
+pub const MAX_STACK: u64 = 1 << 31;
+/// Batches for which ADAPTIVE has room beyond the smallest stack.
+const ADAPTIVE_BATCHES: u64 = 4;
 /// Largest batch that can be asked for.
 pub const MAX_BATCH: u32 = 1 << 24;
 /// Batch where neither batch nor memory is asked for: the buffers of a batch fit a second-level cache.
@@ -45,6 +51,15 @@ pub const fn stack_min(n: u64, k: u64) -> u64 {
     n + k.saturating_sub(1)
 }
 
+/// Entries of the stack for ADAPTIVE: the capacity that was asked for, or, for 0, a few batches beyond the
+/// smallest, which is hardly ever slower than the exact maximum; never more than that.
+#[must_use]
+pub const fn stack_adaptive(n: u64, p: u64, k: u64, capacity: u64) -> u64 {
+    let wanted = if capacity > 0 { capacity } else { stack_min(n, k) + ADAPTIVE_BATCHES * p };
+    let most = stack_exact(n, p, k);
+    if wanted < most { wanted } else { most }
+}
+
 /// Sizes of all buffers of one frame, in entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
@@ -56,6 +71,10 @@ pub struct Sizes {
     pub objects: u32,
     /// Surfaces a batch.
     pub batch: u32,
+    /// How the stack is worked off.
+    pub scheduler: Scheduler,
+    /// Entries of the stack; 0 = what the scheduler asks for. Only ADAPTIVE can have less than that.
+    pub capacity: u32,
     /// Levels `k`.
     pub levels: u32,
     /// Image width in pixels.
@@ -87,16 +106,40 @@ impl Sizes {
             }
             index += 1;
         }
-        if self.stack_entries() > u32::MAX as u64 {
-            return Err(invalid("surface stack", self.stack_entries(), 1, u32::MAX as u64));
+        if self.stack_entries() > MAX_STACK {
+            return Err(invalid("surface stack", self.stack_entries(), 1, MAX_STACK));
         }
-        Ok(self)
+        let least = stack_min(self.patches as u64, self.levels as u64);
+        if self.capacity != 0 && (self.capacity as u64) < least {
+            return Err(invalid("stack capacity", self.capacity as u64, least, MAX_STACK));
+        }
+        match self.scheduler {
+            Scheduler::Stack => Ok(Self { batch: 1, ..self }),
+            // Buffers grow to a level's size; a draw follows every level.
+            Scheduler::Breadth => Ok(Self { batch: self.patches, ..self }),
+            _ => Ok(self),
+        }
     }
 
     /// Surfaces that the stack must hold.
     #[must_use]
     pub const fn stack_entries(&self) -> u64 {
-        stack_exact(self.patches as u64, self.batch as u64, self.levels as u64)
+        let (n, p, k) = (self.patches as u64, self.batch as u64, self.levels as u64);
+        match self.scheduler {
+            Scheduler::Stack => stack_exact(n, 1, k),
+            Scheduler::Bounded => stack_exact(n, p, k),
+            Scheduler::Adaptive => stack_adaptive(n, p, k, self.capacity as u64),
+            Scheduler::Breadth => 2 * n,
+        }
+    }
+
+    /// Proven maximum of the stack; BREADTH has none.
+    #[must_use]
+    pub const fn stack_bound(&self) -> Option<u64> {
+        match self.scheduler {
+            Scheduler::Breadth => None,
+            _ => Some(self.stack_entries()),
+        }
     }
 
     /// Batches after which the draw buffer may be full.
@@ -124,8 +167,9 @@ impl Sizes {
         self.width as u64 * self.height as u64
     }
 
-    /// Bytes of everything that does not depend on the batch.
-    const fn fixed_bytes(&self) -> u64 {
+    /// Bytes of everything that does not depend on batch and scheduler: scene and image.
+    #[must_use]
+    pub const fn fixed_bytes(&self) -> u64 {
         self.patch_bytes()
             + self.objects as u64 * size_of::<Object>() as u64
             + self.pixels() * (size_of::<Sample>() + size_of::<Colour>()) as u64

@@ -5,8 +5,8 @@ use crate::abi::{
 };
 use crate::backend::Device;
 use crate::error::PlanError;
-use crate::memory::Sizes;
-use crate::schedule::{Bounded, Step};
+use crate::memory::{MAX_STACK, Sizes};
+use crate::schedule::{Bounded, Scheduler, Step};
 use crate::stage::{Items, Stage};
 
 /// What a frame counted. Independent of device, batch and threads, but for `max_stack`.
@@ -26,6 +26,8 @@ pub struct Counts {
     pub max_stack: u64,
     /// Roots that may not have been touched yet: a measure of progress.
     pub roots_left: u64,
+    /// Batches that were taken, empty ones included.
+    pub batches: u64,
 }
 
 impl Counts {
@@ -64,30 +66,42 @@ pub struct Buffers<B> {
 pub struct FramePlan {
     sizes: Sizes,
     frame: Frame,
+    /// Are surfaces diced and sampled, or only subdivided?
+    draws: bool,
 }
 
 impl FramePlan {
-    /// Plans a frame of `patches` and `objects` with batches of `batch` surfaces.
+    /// Plans a frame of `patches` and `objects` with batches of `batch` surfaces and the default scheduler.
     ///
     /// # Errors
     /// [`PlanError::Invalid`] if a size or option is out of range.
     pub const fn new(frame: Frame, patches: u32, objects: u32, batch: u32) -> Result<Self, PlanError> {
         let Frame { width, height, levels, .. } = frame;
-        match (Sizes { patches, faces: 0, objects, batch, levels, width, height }).checked() {
-            Ok(sizes) => Ok(Self { sizes, frame }),
+        let (scheduler, capacity) = (Scheduler::Adaptive, 0);
+        let faces = 0;
+        Self::with_sizes(
+            frame,
+            Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height },
+        )
+    }
+
+    /// Plans a frame with these sizes, which must be the frame's own.
+    ///
+    /// # Errors
+    /// [`PlanError::Invalid`] if a size or option is out of range.
+    pub const fn with_sizes(frame: Frame, sizes: Sizes) -> Result<Self, PlanError> {
+        let sizes = Sizes { levels: frame.levels, width: frame.width, height: frame.height, ..sizes };
+        match sizes.checked() {
+            Ok(sizes) => Ok(Self { sizes, frame, draws: true }),
             Err(error) => Err(error),
         }
     }
 
-    /// The same frame where so many of the patches are Gregory patches.
-    ///
-    /// # Errors
-    /// [`PlanError::Invalid`] if there are more of these than patches.
-    pub const fn with_faces(self, faces: u32) -> Result<Self, PlanError> {
-        match (Sizes { faces, ..self.sizes }).checked() {
-            Ok(sizes) => Ok(Self { sizes, ..self }),
-            Err(error) => Err(error),
-        }
+    /// The same plan without pictures: surfaces are bounded and split, and what is to be drawn is counted. For
+    /// measuring subdivision alone.
+    #[must_use]
+    pub const fn without_drawing(self) -> Self {
+        Self { draws: false, ..self }
     }
 
     /// Sizes of all buffers.
@@ -107,12 +121,7 @@ impl FramePlan {
         patches: &[Patch],
     ) -> Result<Buffers<D::Buffer>, D::Error> {
         let sizes = &self.sizes;
-        let limits = Limits {
-            patches: sizes.patches,
-            batch: sizes.batch,
-            stack_room: sizes.stack_entries() as u32,
-            draw_room: sizes.draw_entries() as u32,
-        };
+        let limits = self.limits();
         let mut reserve = |name, layout: Layout, entries: u64| device.allocate(name, layout, entries);
         let batch = u64::from(sizes.batch);
         let buffers = Buffers {
@@ -136,11 +145,34 @@ impl FramePlan {
         Ok(buffers)
     }
 
+    const fn limits(&self) -> Limits {
+        Limits {
+            patches: self.sizes.patches,
+            batch: self.sizes.batch,
+            stack_room: self.sizes.stack_entries() as u32,
+            draw_room: self.sizes.draw_entries() as u32,
+            levels: self.sizes.levels,
+        }
+    }
+
     /// Renders the frame into `buffers.samples` and `buffers.colours`; `progress` sees the counts so far.
+    /// Only BREADTH changes other buffers than those: they grow.
     ///
     /// # Errors
     /// What the device reports; [`PlanError::Overflow`] if a buffer ran full.
     pub fn run<D: Device>(
+        &self,
+        device: &mut D,
+        buffers: &mut Buffers<D::Buffer>,
+        progress: impl FnMut(&Counts),
+    ) -> Result<Counts, D::Error> {
+        match self.sizes.scheduler {
+            Scheduler::Breadth => self.run_by_level(device, buffers, progress),
+            _ => self.run_by_batch(device, buffers, progress),
+        }
+    }
+
+    fn run_by_batch<D: Device>(
         &self,
         device: &mut D,
         buffers: &Buffers<D::Buffer>,
@@ -150,11 +182,11 @@ impl FramePlan {
         let mut schedule = Bounded::new(self.sizes.batches_a_draw());
         loop {
             match schedule.step() {
-                Step::Seed => {
-                    let all = [&buffers.limits, &buffers.stack, &buffers.control];
-                    device.dispatch(Stage::Seed, Items::Count(self.sizes.patches), &all)?;
+                Step::Seed => self.seed(device, buffers)?,
+                Step::Batch => {
+                    run_batch(device, buffers)?;
+                    counts.batches += 1;
                 }
-                Step::Batch => run_batch(device, buffers)?,
                 Step::Draw => self.draw(device, buffers)?,
                 Step::Ask => {
                     let control = ask(device, buffers)?;
@@ -167,17 +199,79 @@ impl FramePlan {
         }
     }
 
+    /// BREADTH: a level is a batch. The host asks after each, and makes room for the next.
+    fn run_by_level<D: Device>(
+        &self,
+        device: &mut D,
+        buffers: &mut Buffers<D::Buffer>,
+        mut progress: impl FnMut(&Counts),
+    ) -> Result<Counts, D::Error> {
+        let mut counts = Counts::default();
+        let mut limits = self.limits();
+        self.seed(device, buffers)?;
+        loop {
+            let control = ask(device, buffers)?;
+            counts.add(&control, self.frame.rate);
+            progress(&counts);
+            if control.stack == 0 {
+                return Ok(counts);
+            }
+            self.make_room(device, buffers, &mut limits, control.stack)?;
+            run_batch(device, buffers)?;
+            counts.batches += 1;
+            self.draw(device, buffers)?;
+        }
+    }
+
+    /// Lets a level of `count` surfaces be one batch: twice as many may come of it.
+    fn make_room<D: Device>(
+        &self,
+        device: &mut D,
+        b: &mut Buffers<D::Buffer>,
+        limits: &mut Limits,
+        count: u32,
+    ) -> Result<(), D::Error> {
+        let room = 2 * u64::from(count);
+        if room > MAX_STACK {
+            let (option, value) = ("surface stack", room);
+            return Err(PlanError::Invalid { option, value, least: 1, most: MAX_STACK }.into());
+        }
+        if count > limits.batch || count > limits.draw_room {
+            let entries = u64::from(count);
+            b.batch = device.allocate("batch", Surface::LAYOUT, entries)?;
+            b.verdicts = device.allocate("verdicts", Verdict::LAYOUT, entries)?;
+            b.slots = device.allocate("slots", Slot::LAYOUT, entries)?;
+            b.draws = device.allocate("draws", Draw::LAYOUT, entries)?;
+            (limits.batch, limits.draw_room) = (count, count);
+        }
+        if room > u64::from(limits.stack_room) {
+            let larger = device.allocate("stack", Surface::LAYOUT, room)?;
+            device.copy(&b.stack, &larger, u64::from(count))?;
+            b.stack = larger;
+            limits.stack_room = room as u32;
+        }
+        // A level is all there is, so its children are safe without any more room.
+        device.write(&b.limits, &[Limits { levels: 1, ..*limits }])
+    }
+
+    fn seed<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
+        let all = [&b.limits, &b.stack, &b.control];
+        device.dispatch(Stage::Seed, Items::Count(self.sizes.patches), &all)
+    }
+
     fn draw<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
         let image =
             Items::Image { width: self.sizes.width, height: self.sizes.height, rate: self.frame.rate };
         let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
-        device.dispatch(Stage::Draw, image, &draw)?;
+        if self.draws {
+            device.dispatch(Stage::Draw, image, &draw)?;
+        }
         device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
     }
 }
 
 fn run_batch<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
-    device.dispatch(Stage::Take, Items::Count(1), &[&b.limits, &b.control])?;
+    device.dispatch(Stage::Take, Items::Count(1), &[&b.limits, &b.stack, &b.control])?;
     let bound = [&b.frame, &b.objects, &b.patches, &b.control, &b.stack, &b.batch, &b.verdicts];
     device.dispatch(Stage::Bound, Items::Taken, &bound)?;
     let scan = [&b.limits, &b.verdicts, &b.slots, &b.control];

@@ -110,7 +110,9 @@ impl Stage {
             Self::Seed => {
                 const { &[read::<Limits>("limits"), write::<Surface>("stack"), write::<Control>("control")] }
             }
-            Self::Take => const { &[read::<Limits>("limits"), write::<Control>("control")] },
+            Self::Take => {
+                const { &[read::<Limits>("limits"), read::<Surface>("stack"), write::<Control>("control")] }
+            }
             Self::Bound => {
                 const {
                     &[

@@ -5,7 +5,7 @@ mod common;
 
 use std::collections::HashSet;
 
-use micropoly_core::abi::{CULL, Control, MAX_SPLITS, SPLIT_U, SPLIT_V, Slot, Surface, Verdict};
+use micropoly_core::abi::{CULL, Control, Limits, MAX_SPLITS, SPLIT_U, SPLIT_V, Slot, Surface, Verdict};
 use micropoly_core::kernel::scan::scan;
 use micropoly_core::kernel::seed::{seed, start};
 use micropoly_core::kernel::split::{Outcome, split};
@@ -35,7 +35,8 @@ impl Stack {
 
     /// Runs one batch in which the surfaces picked by `chosen` are split, as far as `levels` allow.
     fn step(&mut self, p: u32, levels: u32, chosen: impl Fn(usize) -> bool) {
-        let control = take(flush(self.control), p);
+        let limits = Limits { batch: p, stack_room: self.surfaces.len() as u32, levels, ..Limits::default() };
+        let control = take(flush(self.control), &limits, &self.surfaces);
         let batch: Vec<Surface> = self.surfaces[control.base as usize..][..control.taken as usize].to_vec();
         let verdict = |(index, surface): (usize, &Surface)| {
             let axis = if surface.u_level() < MAX_SPLITS { SPLIT_U } else { SPLIT_V };
@@ -58,15 +59,26 @@ impl Stack {
 
 /// The largest stack that any sequence of verdicts leads to.
 fn worst(n: u32, p: u32, levels: u32) -> u32 {
-    let room = stack_exact(n.into(), p.into(), levels.into()) as u32;
+    worst_within(n, p, levels, stack_exact(n.into(), p.into(), levels.into()) as u32)
+}
+
+/// The same for a stack with so much room; a batch is never empty, and the largest that is safe.
+fn worst_within(n: u32, p: u32, levels: u32, room: u32) -> u32 {
     let first = Stack::new(n, room);
     let (mut seen, mut open) = (HashSet::from([first.levels()]), vec![first]);
     let mut peak = n;
     while let Some(stack) = open.pop() {
-        let batch = stack.control.stack.min(p);
+        let batch = largest_safe(&stack.levels(), p, levels, room);
+        assert!(batch > 0, "n {n}, p {p}, k {levels}, room {room}: nothing is safe on {:?}", stack.levels());
         for pattern in 0..1_u32 << batch {
             let mut next = stack.clone();
             next.step(p, levels, |index| pattern >> index & 1 == 1);
+            assert_eq!(
+                next.control.taken,
+                batch,
+                "n {n}, p {p}, k {levels}, room {room}: {:?}",
+                stack.levels()
+            );
             peak = peak.max(next.control.peak);
             if next.control.stack > 0 && seen.insert(next.levels()) {
                 open.push(next);
@@ -74,6 +86,37 @@ fn worst(n: u32, p: u32, levels: u32) -> u32 {
         }
     }
     peak
+}
+
+/// Number of surfaces of the largest batch whose splitting leaves every entry room to be worked off alone:
+/// tried out one by one.
+fn largest_safe(stack: &[u32], p: u32, levels: u32, room: u32) -> u32 {
+    let is_safe = |batch: u32| {
+        let (below, top) = stack.split_at(stack.len() - batch as usize);
+        // Of the last level none is split; then the next below it lies where its first child would.
+        let children = top.iter().flat_map(|level| [(level + 1).min(levels); 2]);
+        let after = below.iter().copied().chain(children);
+        (0..).zip(after).all(|(index, level)| index + levels <= room + level)
+    };
+    (1..=p.min(stack.len() as u32)).rev().find(|&batch| is_safe(batch)).unwrap_or(0)
+}
+
+#[test]
+fn any_room_is_enough_that_one_surface_at_a_time_needs() {
+    let mut cases = 0;
+    for levels in 1..=5 {
+        for p in 1..=4 {
+            for n in 1..=5 {
+                let most = stack_exact(n.into(), p.into(), levels.into()) as u32;
+                for room in stack_min(n.into(), levels.into()) as u32..=most {
+                    let peak = worst_within(n, p, levels, room);
+                    assert!(peak <= room && (room < most || peak == most), "n {n}, p {p}, k {levels}");
+                    cases += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(cases, 351);
 }
 
 #[test]
@@ -130,7 +173,9 @@ fn random_adversaries_stay_within_the_bound_of_large_stacks() {
 #[test]
 fn a_stack_that_is_too_small_is_reported_and_not_written() {
     let mut stack = Stack::new(2, 3);
-    let control = take(stack.control, 2);
+    // As if the stack had room for the children, which the scan knows better.
+    let limits = Limits { batch: 2, stack_room: 4, levels: 2, ..Limits::default() };
+    let control = take(stack.control, &limits, &stack.surfaces);
     let verdicts = [Verdict { code: SPLIT_U, ..Verdict::default() }; 2];
     stack.control = scan(control, &verdicts, &mut [Slot::default(); 2], 3, 2);
     assert_eq!(stack.control.overflow, 1);

@@ -6,7 +6,7 @@ use bytesize::ByteSize;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::MAX_BATCH;
-use micropoly::{Backend, Batch, FrameOptions, Profile, RenderOptions};
+use micropoly::{Backend, Batch, FrameOptions, Profile, RenderOptions, Scheduler};
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Devices,
     /// Find out, device by device and stage by stage, whether all devices give the same bits.
     Conform(ConformArguments),
+    /// Measure subdivision: scheduler × batch × scene × backend (Weber 2014, Table 7.2).
+    Bench(BenchArguments),
 }
 
 #[derive(Debug, Args)]
@@ -81,6 +83,42 @@ pub(crate) struct ConformArguments {
     pub(crate) pictures: PathBuf,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct BenchArguments {
+    /// Scenes to measure; without any, the built-in hair, columns, city and eye split.
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Which devices to measure on: `all`, or those of one backend.
+    #[arg(long, value_enum, default_value_t = Compared::Cpu)]
+    pub(crate) backend: Compared,
+    /// Schedulers to measure, separated by commas.
+    #[arg(
+        long = "schedulers",
+        value_enum,
+        value_delimiter = ',',
+        value_name = "LIST",
+        default_value = "breadth,bounded,adaptive"
+    )]
+    pub(crate) chosen: Vec<SchedulerChoice>,
+    /// Batch sizes of those schedulers that have one, separated by commas.
+    #[arg(long = "batches", value_delimiter = ',', value_name = "LIST", default_value = "256,1024,4096,16384",
+          value_parser = value_parser!(u32).range(1..=i64::from(MAX_BATCH)))]
+    pub(crate) batches: Vec<u32>,
+    /// Runs of each; the shortest counts.
+    #[arg(long, value_name = "N", default_value = "3", value_parser = value_parser!(u32).range(1..=1000))]
+    pub(crate) repeat: u32,
+    /// Write the table as JSON to this file; - writes to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Write the table as comma-separated values to this file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Plot rate over memory (Weber 2014, Fig. 7.2), a curve a scheduler, to this SVG file; of the first scene.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) plot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) frame: FrameArguments,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Compared {
     /// Every device that is found.
@@ -116,6 +154,13 @@ pub(crate) struct FrameArguments {
     /// Memory that the device may use, for example 64MiB. The image does not depend on it.
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = bytes)]
     memory: Option<u64>,
+    /// How the stack of surfaces is worked off. The image does not depend on it.
+    #[arg(long, value_enum, default_value_t = SchedulerChoice::Adaptive)]
+    scheduler: SchedulerChoice,
+    /// Entries of the stack for --scheduler adaptive; the number of patches + levels - 1 is enough. The image
+    /// does not depend on it.
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u32).range(1..))]
+    stack: Option<u32>,
     /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
     #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true,
           value_parser = value_parser!(u16).range(0..=1024))]
@@ -145,7 +190,49 @@ impl FrameArguments {
             cull_backfaces: self.cull_backfaces,
             profile: self.profile.into(),
         };
-        RenderOptions { frame, batch, threads: usize::from(self.threads), ..RenderOptions::default() }
+        RenderOptions {
+            frame,
+            batch,
+            scheduler: self.scheduler.into(),
+            capacity: self.stack.unwrap_or(0),
+            threads: usize::from(self.threads),
+            ..RenderOptions::default()
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SchedulerChoice {
+    /// One surface at a time, depth first.
+    Stack,
+    /// All surfaces of a level at once; memory grows with the scene.
+    Breadth,
+    /// Batches of fixed size (Weber 2014).
+    Bounded,
+    /// As many as are safe for the stack, however small it is.
+    Adaptive,
+}
+
+impl Compared {
+    /// The one backend that is meant, or none for all.
+    pub(crate) const fn only(self) -> Option<Backend> {
+        match self {
+            Self::All => None,
+            Self::Cpu => Some(Backend::Cpu),
+            Self::Wgpu => Some(Backend::Wgpu),
+            Self::Ocl => Some(Backend::Ocl),
+        }
+    }
+}
+
+impl From<SchedulerChoice> for Scheduler {
+    fn from(choice: SchedulerChoice) -> Self {
+        match choice {
+            SchedulerChoice::Stack => Self::Stack,
+            SchedulerChoice::Breadth => Self::Breadth,
+            SchedulerChoice::Bounded => Self::Bounded,
+            SchedulerChoice::Adaptive => Self::Adaptive,
+        }
     }
 }
 

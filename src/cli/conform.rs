@@ -7,7 +7,8 @@ use micropoly::core::stage::Stage;
 use micropoly::devices::{DeviceEntry, Job, devices_of, with_device};
 use micropoly::{Backend, Error, FrameOptions, Image, Result, Scene, bpt, scene_file};
 use micropoly_conformance::report::{CaseReport, DeviceReport, check_case, check_stage, colours};
-use micropoly_conformance::{Case, corpus};
+use micropoly_conformance::{Case, Outcome, corpus};
+use serde_json::Value;
 
 use super::args::{Compared, ConformArguments};
 use super::render::write_json;
@@ -22,7 +23,7 @@ pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
     let cases = cases(&arguments.scenes)?;
     let mut reports = Vec::new();
     for entry in &entries {
-        println!("\n{} {}  {}", entry.backend.name(), entry.index, entry.name);
+        say!("\n{} {}  {}", entry.backend.name(), entry.index, entry.name);
         let job = Conform { entry, cases: &cases, pictures: &arguments.pictures };
         reports.push(with_device(entry, 3, job)??);
     }
@@ -30,7 +31,7 @@ pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
         write_json(path, &reports)?;
     }
     let wrong = reports.iter().filter(|report| !report.agrees()).count();
-    println!("\n{} of {} devices agree with the CPU", reports.len() - wrong, reports.len());
+    say!("\n{} of {} devices agree with the CPU", reports.len() - wrong, reports.len());
     if wrong > 0 {
         let problem = format!("{wrong} of {} devices give other bits than the CPU", reports.len());
         return Err(Error::scene(problem, "see the first difference of each above"));
@@ -40,12 +41,7 @@ pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
 
 /// The devices that are to be compared.
 fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
-    let only = match choice {
-        Compared::All => None,
-        Compared::Cpu => Some(Backend::Cpu),
-        Compared::Wgpu => Some(Backend::Wgpu),
-        Compared::Ocl => Some(Backend::Ocl),
-    };
+    let only = choice.only();
     let mut all = Vec::new();
     for backend in Backend::ALL {
         if only.is_some_and(|only| only != backend) {
@@ -54,7 +50,7 @@ fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
         match devices_of(backend) {
             Ok(entries) => all.extend(entries),
             Err(_) if only.is_some() => return Err(backend.candidates(None).expect_err("there is none")),
-            Err(missing) => println!("{}: {}", backend.name(), missing.why),
+            Err(missing) => say!("{}: {}", backend.name(), missing.why),
         }
     }
     Ok(all)
@@ -117,6 +113,7 @@ impl<D: Device> Job for AgainstReference<'_, D> {
         let mut report = DeviceReport {
             backend: self.conform.entry.backend.name().to_owned(),
             device: self.name.clone(),
+            details: self.conform.entry.details.iter().cloned().collect(),
             stages: Vec::new(),
             cases: Vec::new(),
         };
@@ -124,7 +121,7 @@ impl<D: Device> Job for AgainstReference<'_, D> {
             let checked = check_stage(&mut reference, &mut self.device, stage, corpus::ROUNDS);
             print_row(stage.name(), &format!("{} inputs", checked.inputs), checked.agrees());
             if let Some(difference) = &checked.difference {
-                println!("      {difference}");
+                say!("      {difference}");
             }
             print_error(checked.error.as_deref());
             report.stages.push(checked);
@@ -156,7 +153,7 @@ impl<D: Device> AgainstReference<'_, D> {
         let images = [expected, actual].map(|all| Image::from_colours(width, height, &all));
         let path = self.conform.pictures.join(format!("{}.png", case.name.replace([' ', '/'], "-")));
         side_by_side(&images[0], &images[1]).save_png(&path)?;
-        println!("      expected | actual | difference: {}", path.display());
+        say!("      expected | actual | difference: {}", path.display());
         Ok(())
     }
 }
@@ -178,18 +175,30 @@ fn side_by_side(expected: &Image, actual: &Image) -> Image {
 fn print_case(report: &CaseReport) {
     let what = format!("batch {}, {} surfaces", report.batch, report.expected.processed);
     print_row(&report.case, &what, report.agrees());
-    if let Some(found) = report.found.as_ref().filter(|found| **found != report.expected) {
-        println!("      expected {:?}\n      found    {found:?}", report.expected);
+    for (field, expected, found) in differences(report) {
+        say!("      {field} is {found}, should be {expected}");
     }
     print_error(report.error.as_deref());
 }
 
+/// The fields in which a device's outcome differs: name, expected value, found value.
+fn differences(report: &CaseReport) -> Vec<(String, Value, Value)> {
+    let fields = |outcome: &Outcome| serde_json::to_value(outcome).unwrap_or_default();
+    let Some(found) = report.found.as_ref().map(fields) else { return Vec::new() };
+    let Value::Object(expected) = fields(&report.expected) else { return Vec::new() };
+    let pairs = expected.into_iter().map(|(name, value)| (found[&name].clone(), name, value));
+    pairs
+        .filter(|(found, _, value)| found != value)
+        .map(|(found, name, value)| (name, value, found))
+        .collect()
+}
+
 fn print_row(name: &str, what: &str, agrees: bool) {
-    println!("  {name:<24} {what:<36} {}", if agrees { "same bits" } else { "DIFFERS" });
+    say!("  {name:<24} {what:<36} {}", if agrees { "same bits" } else { "DIFFERS" });
 }
 
 fn print_error(error: Option<&str>) {
     if let Some(error) = error {
-        println!("      {error}");
+        say!("      {error}");
     }
 }

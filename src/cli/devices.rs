@@ -8,13 +8,13 @@ pub(crate) fn run() -> Result<()> {
         match devices_of(backend) {
             Ok(all) => {
                 for entry in all {
-                    println!("{:<5} {:>2}  {}", backend.name(), entry.index, entry.name);
+                    say!("{:<5} {:>2}  {}", backend.name(), entry.index, entry.name);
                     for (name, value) in entry.details {
-                        println!("           {name:<28} {value}");
+                        say!("           {name:<28} {value}");
                     }
                 }
             }
-            Err(missing) => println!("{:<5}  -  {}", backend.name(), missing.why),
+            Err(missing) => say!("{:<5}  -  {}", backend.name(), missing.why),
         }
     }
     Ok(())

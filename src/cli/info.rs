@@ -13,24 +13,36 @@ pub(crate) fn run(arguments: &InfoArguments) -> Result<()> {
     let (low, high) = scene.bounds();
     let eye = scene.camera.view.inverse().translation;
     let point_lights = scene.lights.iter().filter(|light| matches!(light, Light::Point { .. })).count();
-    println!("scene        {}", scene.name);
-    println!("objects      {}", scene.objects.len());
     let gregory = scene.gregory_count();
-    println!("patches      {} bicubic Bézier, {gregory} Gregory", scene.patch_count() - gregory);
-    println!(
+    say!("scene        {}", scene.name);
+    say!("objects      {}", scene.objects.len());
+    say!("patches      {} bicubic Bézier, {gregory} Gregory", scene.patch_count() - gregory);
+    say!(
         "bounds       {:.4} {:.4} {:.4}  to  {:.4} {:.4} {:.4}",
-        low.x, low.y, low.z, high.x, high.y, high.z
+        low.x,
+        low.y,
+        low.z,
+        high.x,
+        high.y,
+        high.z
     );
-    println!("lights       {} directional, {point_lights} point", scene.lights.len() - point_lights);
-    println!(
+    say!("lights       {} directional, {point_lights} point", scene.lights.len() - point_lights);
+    say!(
         "camera       at {:.4} {:.4} {:.4}, fov {}°, near {}",
-        eye.x, eye.y, eye.z, scene.camera.fov as f32, scene.camera.near as f32
+        eye.x,
+        eye.y,
+        eye.z,
+        scene.camera.fov as f32,
+        scene.camera.near as f32
     );
-    println!(
+    say!(
         "frame        {}x{} pixels, batches of {} surfaces, {} levels",
-        sizes.width, sizes.height, sizes.batch, sizes.levels
+        sizes.width,
+        sizes.height,
+        sizes.batch,
+        sizes.levels
     );
-    println!("stack bound  {} surfaces", sizes.stack_entries());
-    println!("memory       {} on the device", ByteSize(sizes.bytes()).display().iec());
+    say!("stack bound  {} surfaces", sizes.stack_bound().map_or("no".to_owned(), |bound| bound.to_string()));
+    say!("memory       {} on the device", ByteSize(sizes.bytes()).display().iec());
     Ok(())
 }

@@ -4,7 +4,14 @@ use std::fmt::Write;
 use std::path::Path;
 
 use bytesize::ByteSize;
-use micropoly::stats::Stats;
+use micropoly::stats::{Stats, Surfaces};
+
+fn stack(surfaces: &Surfaces) -> String {
+    match surfaces.stack_bound {
+        Some(bound) => format!("{} surfaces at most, proven bound {bound}", surfaces.max_stack),
+        None => format!("{} surfaces at most, without a bound", surfaces.max_stack),
+    }
+}
 
 /// The summary as text.
 pub(crate) fn of(stats: &Stats, output: &Path) -> String {
@@ -23,7 +30,7 @@ pub(crate) fn of(stats: &Stats, output: &Path) -> String {
             ),
         ),
         ("micropolygons", stats.micropolygons.to_string()),
-        ("stack", format!("{} surfaces at most, proven bound {}", surfaces.max_stack, surfaces.stack_bound)),
+        ("stack", stack(surfaces)),
         ("memory", ByteSize(stats.bytes_allocated).display().iec().to_string()),
         (
             "milliseconds",

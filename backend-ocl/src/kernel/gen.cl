@@ -117,6 +117,7 @@ typedef struct {
     uint batch;
     uint stack_room;
     uint draw_room;
+    uint levels;
 } Limits;
 
 typedef struct {

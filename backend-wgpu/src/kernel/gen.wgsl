@@ -117,6 +117,7 @@ struct Limits {
     batch: u32,
     stack_room: u32,
     draw_room: u32,
+    levels: u32,
 }
 
 struct Sample {

@@ -1,14 +1,17 @@
-//! take: the next batch is the top of the stack (Weber 2014, Alg. 4.1).
+//! take: the next batch is the top of the stack (Weber 2014, Alg. 4.1), as much of it as is safe.
 
-use crate::abi::Control;
+use crate::abi::{Control, Limits, Surface};
+use crate::schedule::adaptive::base;
 
-/// Takes the top `batch` surfaces, or all there are. The draws of the last batch now wait to be diced.
+/// Takes the largest safe batch of up to `limits.batch` surfaces (see [`crate::schedule::adaptive`]). The draws
+/// of the last batch now wait to be diced.
 #[inline(always)]
 #[must_use]
-pub fn take(control: Control, batch: u32) -> Control {
-    let taken = if control.stack < batch { control.stack } else { batch };
-    let base = control.stack - taken;
+pub fn take(control: Control, limits: &Limits, stack: &[Surface]) -> Control {
+    let Limits { batch, levels, stack_room, .. } = *limits;
+    let base = base(control.stack, batch, levels, stack_room, |entry| stack[entry as usize].level());
     let low = if base < control.low { base } else { control.low };
+    let taken = control.stack - base;
     Control { taken, base, low, waiting: control.waiting + control.fresh, fresh: 0, ..control }
 }
 

@@ -1,4 +1,5 @@
-//! BOUNDED: batches of fixed size from the top of one stack (Weber 2014, sec. 4.3, Alg. 4.1).
+//! STACK, BOUNDED and ADAPTIVE: batches from the top of one stack (Weber 2014, sec. 4.3, Alg. 4.1). How large a
+//! batch is, `take` decides on the device.
 //!
 //! The host asks the device for its counts only once a draw buffer, not once a batch.
 

@@ -1,5 +1,40 @@
-//! Schedulers as state machines: which stage runs next. They know counts, never surfaces.
+//! Schedulers: how much of the stack is worked on at once, and which stage runs next. They know counts, never
+//! surfaces. The image and the drawn surfaces are the same whichever is chosen.
 
+pub mod adaptive;
 mod bounded;
 
 pub use bounded::{Bounded, Step};
+
+/// How the stack is worked off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Scheduler {
+    /// One surface at a time, depth first: the reference.
+    Stack,
+    /// All surfaces of a level at once (Patney & Owens 2008). Its buffers grow when a level does not fit;
+    /// nothing bounds them but the scene.
+    Breadth,
+    /// Batches of fixed size from the top of the stack, children in the place of their parents (Weber 2014,
+    /// sec. 4.3).
+    Bounded,
+    /// As many surfaces of the top, up to a batch, as are safe for the stack's capacity, however small it is:
+    /// see `docs/proofs/stack.md`.
+    #[default]
+    Adaptive,
+}
+
+impl Scheduler {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Stack, Self::Breadth, Self::Bounded, Self::Adaptive];
+
+    /// Its name on the command line and in statistics.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stack => "stack",
+            Self::Breadth => "breadth",
+            Self::Bounded => "bounded",
+            Self::Adaptive => "adaptive",
+        }
+    }
+}

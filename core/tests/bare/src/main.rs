@@ -8,7 +8,7 @@
 mod runtime;
 
 use glam::{DAffine3, DVec3, Vec3};
-use micropoly_core::abi::{Colour, Control, Draw, Frame, Object, Patch, Sample, Slot, Surface, Verdict};
+use micropoly_core::abi::{Colour, Control, Draw, Frame, Limits, Object, Patch, Sample, Slot, Surface, Verdict};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::kernel::dice::{Grid, dice};
 use micropoly_core::kernel::sample::{Band, sample};
@@ -95,7 +95,8 @@ fn covered_samples(scene: &Scene) -> usize {
 fn split_batch(scene: &Scene, queues: &mut Queues) {
     let Scene { frame, object, patch } = scene;
     let Queues { control, stack, draws } = queues;
-    *control = take::take(*control, BATCH as u32);
+    let limits = Limits { batch: BATCH as u32, stack_room: stack.len() as u32, levels: frame.levels, ..Limits::default() };
+    *control = take::take(*control, &limits, stack);
     let taken = control.taken as usize;
     let (mut batch, mut verdicts) = ([Surface::default(); BATCH], [Verdict::default(); BATCH]);
     let mut slots = [Slot::default(); BATCH];

@@ -1,0 +1,98 @@
+//! An operator changed in any kernel makes a comparison fail; see `conformance/src/trial.rs`.
+
+use std::process::ExitCode;
+
+use micropoly_backend_cpu::CpuDevice;
+use micropoly_backend_ocl::{FILES, OclDevice, OclError, OpenOptions};
+use micropoly_conformance::trial::{self, Allowed, Edit, File};
+use micropoly_core::stage::Stage;
+
+/// Mutants that nothing can notice.
+const ALLOWED: &[Allowed] = &[
+    Allowed {
+        file: "bound.cl",
+        line: "return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));",
+        operator: "add(",
+        why: "a length is less than a millionth of a pixel either way",
+    },
+    Allowed {
+        file: "seed.cl",
+        line: "if (position == 0u) {",
+        operator: " == ",
+        why: "a group has more than one item, and whoever writes the counts writes the same",
+    },
+    Allowed {
+        file: "flush.cl",
+        line: "if (get_global_id(0) == 0) {",
+        operator: " == ",
+        why: "whoever does it does the same, and doing it twice changes nothing more",
+    },
+    Allowed {
+        file: "arrange_draw.cl",
+        line: "grids[HEAD_KINDS + 1u] = 0u;",
+        operator: " = 0u;",
+        why: "a kernel that looks for grids of its kind finds none",
+    },
+    Allowed {
+        file: "arrange_draw.cl",
+        line: "grids[HEAD_KINDS] = 0u;",
+        operator: " = 0u;",
+        why: "a kernel that looks for grids of its kind finds none",
+    },
+    Allowed {
+        file: "take.cl",
+        line: "if (lane == 0u) {",
+        operator: " == ",
+        why: "whoever does it does the same, and doing it twice changes nothing more",
+    },
+    Allowed {
+        file: "take.cl",
+        line: "if (!is_safe(limits, count, count - first)) {",
+        operator: " - ",
+        why: "then every surface is looked at, and the answer is the same",
+    },
+    Allowed {
+        file: "take.cl",
+        line: "return taken + limits->levels <= limits->stack_room - count + 2u;",
+        operator: " + ",
+        why: "if it is the second: then every surface is looked at, and the answer is the same",
+    },
+    Allowed {
+        file: "scan.cl",
+        line: "const uint run = (taken + GROUP - 1u) / GROUP;",
+        operator: " - ",
+        why: "longer runs share out the same work",
+    },
+    Allowed {
+        file: "scan.cl",
+        line: "const uint run = (taken + GROUP - 1u) / GROUP;",
+        operator: " / ",
+        why: "the first run is then the whole batch",
+    },
+];
+
+/// The stages that a file is a part of; all are built together, so nothing else knows.
+fn stages(file: &str) -> Vec<Stage> {
+    match file {
+        "num.cl" => vec![Stage::KnownAnswers, Stage::Bound, Stage::Draw],
+        "surface.cl" => vec![Stage::Seed, Stage::Split, Stage::Bound, Stage::Draw],
+        "bezier.cl" | "net.cl" | "project.cl" => vec![Stage::Bound, Stage::Draw],
+        _ => {
+            let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));
+            vec![own.unwrap_or(Stage::Draw)]
+        }
+    }
+}
+
+fn open(_: &[Stage], edit: Edit<'_>) -> Result<OclDevice, OclError> {
+    OclDevice::open(0, &OpenOptions { edit: Some(edit), skip_check: true, ..OpenOptions::default() })
+}
+
+fn main() -> ExitCode {
+    let files: Vec<File> = FILES
+        .iter()
+        .filter(|(name, _)| *name != "gen.cl")
+        .map(|&(name, source)| File { name, source, stages: stages(name) })
+        .collect();
+    trial::main(&files, ALLOWED, CpuDevice::new(1).expect("threads"), open)
+}

@@ -1,0 +1,120 @@
+//! An operator changed in any kernel makes a comparison fail; see `conformance/src/trial.rs`.
+
+use std::process::ExitCode;
+
+use micropoly_backend_cpu::CpuDevice;
+use micropoly_backend_wgpu::{WgpuDevice, WgpuError, Which};
+use micropoly_conformance::trial::{self, Allowed, Edit, File};
+use micropoly_core::stage::Stage;
+
+/// Mutants that nothing can notice.
+const ALLOWED: &[Allowed] = &[
+    Allowed {
+        file: "bound.wgsl",
+        line: "return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));",
+        operator: "add(",
+        why: "a length is less than a millionth of a pixel either way",
+    },
+    Allowed {
+        file: "seed.wgsl",
+        line: "if item == 0u {",
+        operator: " == ",
+        why: "a group has more than one item, and whoever writes the counts writes the same",
+    },
+    Allowed {
+        file: "take.wgsl",
+        line: "if lane == 0u {",
+        operator: " == ",
+        why: "whoever does it does the same, and doing it twice changes nothing more",
+    },
+    Allowed {
+        file: "take.wgsl",
+        line: "let safe = is_safe(count, count - first);",
+        operator: " - ",
+        why: "then every surface is looked at, and the answer is the same",
+    },
+    Allowed {
+        file: "take.wgsl",
+        line: "return taken + limits.levels <= limits.stack_room - count + 2u;",
+        operator: " + ",
+        why: "if it is the second: then every surface is looked at, and the answer is the same",
+    },
+    Allowed {
+        file: "arrange_tiles.wgsl",
+        line: "let wanted = select(rounds.unfinished[kind], grids[HEAD_KINDS + kind], rounds.round == 0u);",
+        operator: " + ",
+        why: "a kernel that looks for grids of its kind finds none",
+    },
+    Allowed {
+        file: "scan.wgsl",
+        line: "let run = (taken + RUNS - 1u) / RUNS;",
+        operator: " - ",
+        why: "longer runs share out the same work",
+    },
+    Allowed {
+        file: "scan.wgsl",
+        line: "let run = (taken + RUNS - 1u) / RUNS;",
+        operator: " / ",
+        why: "the first run is then the whole batch",
+    },
+    Allowed {
+        file: "scan.wgsl",
+        line: "let end = umin(first + run, taken);",
+        operator: " + ",
+        why: "the first run wraps around and is then the whole batch; the others are empty",
+    },
+    Allowed {
+        file: "known_answers.wgsl",
+        line: "if item < arrayLength(&questions) && item < arrayLength(&answers) {",
+        operator: " && ",
+        why: "there are as many answers as questions",
+    },
+    Allowed {
+        file: "arrange.wgsl",
+        line: "let wanted = (control.taken + ITEM_GROUP - 1u) / ITEM_GROUP;",
+        operator: " - ",
+        why: "a group too many has nothing to do",
+    },
+    Allowed {
+        file: "arrange.wgsl",
+        line: "let wanted = (control.taken + ITEM_GROUP - 1u) / ITEM_GROUP;",
+        operator: " / ",
+        why: "groups too many have nothing to do",
+    },
+    Allowed {
+        file: "arrange.wgsl",
+        line: "groups[1] = (wanted + MOST_GROUPS - 1u) / MOST_GROUPS;",
+        operator: " - ",
+        why: "a row of groups too many has nothing to do",
+    },
+];
+
+/// Every file with the stages of all kernels that it is a part of.
+fn files() -> Vec<File> {
+    let mut files: Vec<File> = Vec::new();
+    for kernel in Which::ALL {
+        for &(name, source) in kernel.files().iter().filter(|(name, _)| *name != "gen.wgsl") {
+            match files.iter_mut().find(|file| file.name == name) {
+                Some(file) => file.stages.extend(kernel.stages()),
+                None => files.push(File { name, source, stages: kernel.stages().to_vec() }),
+            }
+        }
+    }
+    files
+}
+
+/// Opens a device with the kernels of some stages alone, which takes less time.
+fn open(stages: &[Stage], edit: Edit<'_>) -> Result<WgpuDevice, WgpuError> {
+    let is_left_out = |name: &str| {
+        let own = Which::ALL.into_iter().find(|kernel| kernel.files().last().is_some_and(|f| f.0 == name));
+        own.is_some_and(|kernel| kernel.stages().iter().all(|stage| !stages.contains(stage)))
+    };
+    let edit = |name: &str, source: &str| {
+        if is_left_out(name) { String::new() } else { edit(name, source) }
+    };
+    WgpuDevice::open_unchecked(0, Some(&edit))
+}
+
+fn main() -> ExitCode {
+    trial::main(&files(), ALLOWED, CpuDevice::new(1).expect("threads"), open)
+}

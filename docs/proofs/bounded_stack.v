@@ -1,0 +1,476 @@
+(* The surface stack stays within its bound: the machine-checked form of stack.md.
+
+   Coq 8.16, no axioms: `coqc bounded_stack.v`. Numbers of lemmas and theorems are those of stack.md.
+   A stack is the list of its levels, top first; the length of what is behind an entry is its index. *)
+Require Import List Arith Lia Permutation.
+Import ListNotations.
+
+Section Stack.
+Variables p k : nat. (* the batch and the number of levels *)
+Hypothesis Hp : 1 <= p.
+Hypothesis Hk : 1 <= k.
+
+(* ---- The model ---- *)
+
+(* What an adversary makes of a batch: it removes a surface or, below the last level, splits it. *)
+Inductive expand : list nat -> list nat -> Prop :=
+| expand_nil : expand [] []
+| expand_drop : forall l b b', expand b b' -> expand (l :: b) b'
+| expand_split : forall l b b', S l < k -> expand b b' -> expand (l :: b) (S l :: S l :: b').
+
+(* All that may be split is split. *)
+Definition split_all (b : list nat) := flat_map (fun l => if S l <? k then [S l; S l] else []) b.
+
+(* BOUNDED: the batch is the top p surfaces, or all there are. *)
+Inductive step : list nat -> list nat -> Prop :=
+| step_batch : forall b r b', length b = Nat.min p (length (b ++ r)) ->
+    expand b b' -> step (b ++ r) (b' ++ r).
+
+Inductive run (s0 : list nat) : nat -> list nat -> Prop :=
+| run_0 : run s0 0 s0
+| run_S : forall t s s', run s0 t s -> step s s' -> run s0 (S t) s'.
+
+(* m_d of stack.md: what n surfaces can become in d iterations. *)
+Fixpoint most (n d : nat) : nat :=
+  match d with 0 => n | S d' => most n d' + Nat.min p (most n d') end.
+
+(* Surfaces of level i and deeper, and of level i and shallower. *)
+Fixpoint deep (i : nat) (s : list nat) : nat :=
+  match s with [] => 0 | l :: t => (if i <=? l then 1 else 0) + deep i t end.
+Definition shallow i s := length s - deep (S i) s.
+
+(* The deepest are on top. *)
+Fixpoint sorted (s : list nat) : Prop :=
+  match s with [] => True | l :: t => Forall (fun x => x <= l) t /\ sorted t end.
+
+(* ---- Counting ---- *)
+
+Lemma deep_app i a b : deep i (a ++ b) = deep i a + deep i b.
+Proof. induction a; simpl; lia. Qed.
+Lemma deep_le_length i s : deep i s <= length s.
+Proof. induction s; simpl; [lia|]. destruct (i <=? a); lia. Qed.
+Lemma deep_S i s : deep (S i) s <= deep i s.
+Proof. induction s as [|a s IH]; cbn [deep]; [lia|].
+  destruct (Nat.leb_spec (S i) a), (Nat.leb_spec i a); lia. Qed.
+Lemma deep_mono i j s : deep (i + j) s <= deep i s.
+Proof. induction j; [rewrite Nat.add_0_r; lia|].
+  rewrite Nat.add_succ_r. pose proof (deep_S (i + j) s). lia. Qed.
+Lemma deep_all i s : Forall (fun x => i <= x) s -> deep i s = length s.
+Proof. induction 1 as [|x s Hx _ IH]; simpl; [lia|]. destruct (Nat.leb_spec i x); lia. Qed.
+Lemma deep_none i s : Forall (fun x => x < i) s -> deep i s = 0.
+Proof. induction 1 as [|x s Hx _ IH]; simpl; [lia|]. destruct (Nat.leb_spec i x); lia. Qed.
+
+Lemma expand_length b b' : expand b b' -> length b' <= 2 * length b.
+Proof. induction 1; cbn [length]; lia. Qed.
+Lemma expand_lt b b' : expand b b' -> Forall (fun x => x < k) b'.
+Proof. induction 1; [constructor|assumption|].
+  constructor; [lia|constructor; [lia|assumption]]. Qed.
+Lemma expand_ge i b b' : expand b b' -> Forall (fun x => i <= x) b -> Forall (fun x => S i <= x) b'.
+Proof. induction 1; intro F; [constructor| |]; inversion F; subst; auto.
+  constructor; [lia|constructor; [lia|auto]]. Qed.
+Lemma expand_le m b b' : expand b b' -> Forall (fun x => x <= m) b -> Forall (fun x => x <= S m) b'.
+Proof. induction 1; intro F; [constructor| |]; inversion F; subst; auto.
+  constructor; [lia|constructor; [lia|auto]]. Qed.
+Lemma expand_split_all b : expand b (split_all b).
+Proof. induction b as [|l b IH]; [constructor|]. unfold split_all. cbn [flat_map].
+  destruct (Nat.ltb_spec (S l) k); cbn [app].
+  - apply expand_split; auto.
+  - apply expand_drop; auto. Qed.
+Lemma split_all_length b : Forall (fun x => S x < k) b -> length (split_all b) = 2 * length b.
+Proof. induction 1 as [|l b Hl _ IH]; auto. unfold split_all in *. cbn [flat_map].
+  rewrite app_length, IH. destruct (Nat.ltb_spec (S l) k); cbn [length]; lia. Qed.
+Lemma expand_le_split_all b b' : expand b b' -> length b' <= length (split_all b).
+Proof. induction 1; unfold split_all in *; cbn [flat_map length]; rewrite ?app_length; [lia|lia|].
+  destruct (Nat.ltb_spec (S l) k); cbn [length]; lia. Qed.
+
+Lemma run_front s0 t s : run s0 (S t) s -> exists s1, step s0 s1 /\ run s1 t s.
+Proof. revert s. induction t as [|t IH]; intros s R; inversion R; subst.
+  - inversion H0; subst. exists s. split; auto. constructor.
+  - destruct (IH _ H0) as (first & A & B). exists first. split; auto. econstructor; eauto. Qed.
+
+(* ---- Lemma 1: the stack stays sorted, whatever the size of the batch ---- *)
+
+Lemma sorted_app a b : sorted (a ++ b) <->
+  sorted a /\ sorted b /\ (forall x y, In x a -> In y b -> y <= x).
+Proof. induction a as [|h a IH]; simpl.
+  - split; [intro; repeat split; auto; contradiction | tauto].
+  - rewrite Forall_app, IH. repeat rewrite Forall_forall. split.
+    + intros [[A B] [C [D F]]]. repeat split; auto. intros x y [->|Hx] Hy; auto.
+    + intros [[A C] [D F]]. repeat split; auto. Qed.
+Lemma expand_sorted b b' : expand b b' -> sorted b -> sorted b'.
+Proof. induction 1 as [|l b b' E IH|l b b' Hl E IH]; simpl; auto; intros [A B]; auto.
+  assert (Forall (fun x => x <= S l) b') by (eapply expand_le; eauto).
+  repeat split; auto. Qed.
+Lemma expand_above b b' : expand b b' ->
+  forall y, (forall x, In x b -> y <= x) -> forall x, In x b' -> y <= x.
+Proof. induction 1; intros y F x Hx; simpl in *; try contradiction; auto.
+  destruct Hx as [<-|[<-|Hx]]; auto; specialize (F l (or_introl eq_refl)); lia. Qed.
+Lemma stays_sorted b r b' : expand b b' -> sorted (b ++ r) -> sorted (b' ++ r).
+Proof. intros E D. apply sorted_app in D. destruct D as (Db & Dr & X). apply sorted_app.
+  repeat split; auto; [eapply expand_sorted; eauto|].
+  intros x y Hx Hy. eapply expand_above; eauto. Qed.
+Lemma sorted_repeat a n : sorted (repeat a n).
+Proof. induction n; simpl; auto. split; auto. apply Forall_forall. intros x Hx.
+  apply repeat_spec in Hx. lia. Qed.
+Lemma levels_lt b r b' : expand b b' -> Forall (fun x => x < k) (b ++ r) ->
+  Forall (fun x => x < k) (b' ++ r).
+Proof. intros E F. apply Forall_app in F. apply Forall_app. split; [eapply expand_lt; eauto|tauto]. Qed.
+
+(* ---- Lemma 2: every level holds at most p surfaces, or with all deeper ones at most 2p ---- *)
+
+(* For a start on level a instead of 0, which Theorem 3 needs. *)
+Definition layered a s := sorted s /\ Forall (fun x => a <= x) s /\
+  forall i, a < i -> deep i s - deep (S i) s <= p \/ deep i s <= 2 * p.
+
+(* Either the batch is full and within the levels from i on, or it takes all of them. *)
+Lemma batch_cases i b r : sorted (b ++ r) -> length b = Nat.min p (length (b ++ r)) ->
+  (Forall (fun x => i <= x) b /\ length b = p) \/ deep i r = 0.
+Proof. intros D L. destruct (Nat.eq_dec (deep i r) 0) as [|Z]; auto. left.
+  assert (exists y, In y r /\ i <= y) as (y & Hy & Hiy).
+  { clear - Z. induction r as [|a r IH]; simpl in Z; [lia|].
+    destruct (Nat.leb_spec i a); [exists a; simpl; auto|].
+    destruct IH as (y & ? & ?); [lia|]. exists y; simpl; auto. }
+  split.
+  - apply sorted_app in D. destruct D as (_ & _ & X).
+    apply Forall_forall. intros x Hx. specialize (X x y Hx Hy). lia.
+  - rewrite app_length in L. destruct r; [contradiction|]. simpl in L. lia. Qed.
+
+Lemma layered_step a s s' : layered a s -> step s s' -> layered a s'.
+Proof. intros (D & A & I) St. destruct St as [b r b' L E].
+  pose proof (stays_sorted _ _ _ E D) as D'.
+  apply Forall_app in A. destruct A as [Ab Ar].
+  split; [|split]; auto.
+  - apply Forall_app. split; auto.
+    eapply Forall_impl; [|exact (expand_ge a _ _ E Ab)]. simpl. lia.
+  - intros i Hi. specialize (I i Hi). pose proof (expand_length _ _ E) as EL.
+    destruct (batch_cases i b r D L) as [(F & Lp)|Z].
+    + left. assert (F' := expand_ge i b b' E F).
+      assert (G : Forall (fun x => i <= x) b')
+        by (eapply Forall_impl; [|exact F']; simpl; intros; lia).
+      rewrite !deep_app, (deep_all (S i) b' F'), (deep_all i b' G).
+      rewrite !deep_app, (deep_all i b F) in *.
+      pose proof (deep_S i r). pose proof (deep_le_length (S i) b).
+      destruct I as [I|I]; lia.
+    + right. rewrite deep_app, Z. pose proof (deep_le_length i b').
+      rewrite app_length in L. lia. Qed.
+
+Lemma layered_start a n : layered a (repeat a n).
+Proof. repeat split.
+  - apply sorted_repeat.
+  - apply Forall_forall. intros x Hx. apply repeat_spec in Hx. lia.
+  - intros i Hi. right. rewrite deep_none; [lia|]. apply Forall_forall. intros x Hx.
+    apply repeat_spec in Hx. lia. Qed.
+Lemma run_layered a n t s : run (repeat a n) t s -> layered a s.
+Proof. induction 1; [apply layered_start | eapply layered_step; eauto]. Qed.
+
+Lemma layers_sum a s : layered a s -> forall j i, a < i -> deep i s - deep (i + j) s <= p * (j + 1).
+Proof. intros (_ & _ & I). induction j as [|j IH]; intros i Hi.
+  - rewrite Nat.add_0_r. lia.
+  - specialize (I i Hi). specialize (IH (S i) ltac:(lia)).
+    replace (S i + j) with (i + S j) in IH by lia. pose proof (deep_S i s). nia. Qed.
+
+(* ---- Theorem 3: at most m_l surfaces are of level l or shallower ---- *)
+
+Lemma first_level_step a s s' : layered a s -> step s s' -> shallow a s' <= shallow a s.
+Proof. intros (_ & A & _) St. destruct St as [b r b' L E]. unfold shallow. rewrite !app_length, !deep_app.
+  apply Forall_app in A. destruct A as [Ab _].
+  pose proof (deep_all _ _ (expand_ge a _ _ E Ab)).
+  pose proof (deep_le_length (S a) b). pose proof (deep_le_length (S a) r). lia. Qed.
+Lemma first_level a n t s : run (repeat a n) t s -> 1 <= t -> shallow a s <= n - p.
+Proof. induction 1 as [|t s s' R IH St]; intro Ht; [lia|].
+  destruct t.
+  - inversion R; subst. pose proof (layered_start a n) as (_ & A & _).
+    pose proof (repeat_length a n) as LN. destruct St as [b r b' L E]. unfold shallow.
+    apply Forall_app in A. destruct A as [Ab _].
+    pose proof (deep_all _ _ (expand_ge a _ _ E Ab)).
+    rewrite app_length in *. rewrite deep_app. pose proof (deep_le_length (S a) r). lia.
+  - pose proof (first_level_step _ _ _ (run_layered _ _ _ _ R) St). specialize (IH ltac:(lia)). lia. Qed.
+
+Lemma most_front n d : most n (S d) = most (n + Nat.min p n) d.
+Proof. induction d as [|d IH]; auto.
+  change (most n (S (S d))) with (most n (S d) + Nat.min p (most n (S d))). rewrite IH. auto. Qed.
+Lemma most_ge n d : n <= most n d.
+Proof. induction d; cbn [most]; lia. Qed.
+Lemma most_mono n n' d : n <= n' -> most n d <= most n' d.
+Proof. intro H. induction d; cbn [most]; lia. Qed.
+Lemma most_grows n i d : 1 <= n -> most n i + d <= most n (i + d).
+Proof. intro H. assert (P : forall j, 1 <= most n j) by (induction j; cbn [most]; lia).
+  induction d as [|d IH]; [rewrite (Nat.add_0_r i); lia|].
+  rewrite (Nat.add_succ_r i). cbn [most]. specialize (P (i + d)). lia. Qed.
+Lemma most_wide n d : p <= n -> most n d = n + p * d.
+Proof. intro H. induction d; cbn [most]; nia. Qed.
+
+Theorem levels_bound : forall d a n t s, run (repeat a n) t s -> shallow (a + d) s <= most n d.
+Proof. induction d as [|d IH]; intros a n t s R; (destruct t as [|t];
+    [inversion R; subst; unfold shallow; rewrite repeat_length; etransitivity;
+     [apply Nat.le_sub_l|apply most_ge]|]).
+  - rewrite Nat.add_0_r. cbn [most]. pose proof (first_level _ _ _ _ R ltac:(lia)). lia.
+  - destruct (le_lt_dec p n) as [W|W].
+    + rewrite most_wide by auto. pose proof (first_level _ _ _ _ R ltac:(lia)) as F.
+      pose proof (layers_sum _ _ (run_layered _ _ _ _ R) (S d) (S a) ltac:(lia)) as G.
+      unfold shallow in *. replace (S a + S d) with (S (a + S d)) in G by lia.
+      pose proof (deep_mono (S a) (S d) s). pose proof (deep_le_length (S a) s).
+      replace (S a + S d) with (S (a + S d)) in * by lia. nia.
+    + apply run_front in R. destruct R as (s1 & St & R).
+      assert (exists n', s1 = repeat (S a) n' /\ n' <= 2 * n) as (n' & -> & Hn).
+      { clear R. remember (repeat a n) as s0 eqn:Q. destruct St as [b r b' L E].
+        pose proof (repeat_length a n) as Ln. rewrite <- Q, app_length in Ln.
+        rewrite app_length in L. assert (r = []) by (destruct r; auto; simpl in *; lia). subst r.
+        rewrite !app_nil_r in *. exists (length b'). pose proof (expand_length _ _ E).
+        split; [|simpl in *; lia].
+        assert (G : Forall (fun x => x = S a) b').
+        { clear - E Q. revert n Q. induction E as [|l b b' E IH|l b b' Hl E IH]; intros n Q; auto;
+            destruct n; simpl in Q; try discriminate; injection Q as -> Q; eauto 6. }
+        clear - G. induction G; simpl; congruence. }
+      replace (a + S d) with (S a + d) by lia. rewrite most_front.
+      etransitivity; [eapply IH; eauto|]. apply most_mono. lia. Qed.
+
+(* ---- Corollary 4: the bound of the stack ---- *)
+
+Definition start N := repeat 0 N.
+
+Lemma run_lt N t s : run (start N) t s -> Forall (fun x => x < k) s.
+Proof. induction 1 as [|t s s' R IH St].
+  - apply Forall_forall. intros x Hx. apply repeat_spec in Hx. lia.
+  - destruct St. eapply levels_lt; eauto. Qed.
+
+Theorem stack_exact N t s : run (start N) t s -> length s <= most N (k - 1).
+Proof. intro R. pose proof (levels_bound (k - 1) 0 N t s R) as B. unfold shallow in B.
+  rewrite deep_none in B; [lia|]. eapply Forall_impl; [|eapply run_lt; eauto]. simpl. lia. Qed.
+Corollary stack_bound N t s : run (start N) t s -> length s <= Nat.max N p + p * (k - 1).
+Proof. intro R. rewrite <- most_wide by lia. etransitivity; [eapply stack_exact; eauto|].
+  apply most_mono. lia. Qed.
+Corollary stack_bound_wide N t s : run (start N) t s -> p <= N -> length s <= N + p * (k - 1).
+Proof. intros R H. pose proof (stack_bound _ _ _ R). lia. Qed.
+
+(* The closed form; j is the number of iterations before the batch is full. *)
+Lemma most_narrow n j : (forall i, i < j -> n * 2 ^ i <= p) -> most n j = n * 2 ^ j.
+Proof. induction j as [|j IH]; intro H; cbn [most]; [simpl; lia|].
+  rewrite IH by auto. specialize (H j ltac:(lia)). cbn [Nat.pow]. nia. Qed.
+Theorem most_closed n j d : (forall i, i < j -> n * 2 ^ i <= p) -> p <= n * 2 ^ j ->
+  most n (j + d) = n * 2 ^ j + p * d.
+Proof. intros H W. rewrite <- (most_narrow n j H) in *. clear H.
+  induction d as [|d IH]; [rewrite (Nat.add_0_r j); lia|].
+  rewrite (Nat.add_succ_r j). cbn [most]. nia. Qed.
+
+(* ---- Theorem 5: no order of the surfaces needs less ---- *)
+
+(* Any surfaces may be taken, in any order, but p of them if there are as many. *)
+Inductive any_run (N : nat) : nat -> list nat -> Prop :=
+| any_0 : any_run N 0 (start N)
+| any_S : forall t s b r, any_run N t s -> Permutation s (b ++ r) ->
+    Nat.min p (length s) <= length b -> any_run N (S t) (split_all b ++ r).
+
+Theorem any_order N t s : any_run N t s -> t < k ->
+  Forall (fun x => x <= t) s /\ most N t <= length s.
+Proof. induction 1 as [|t s b r R IH P B]; intro H.
+  - unfold start. split; [|rewrite repeat_length; simpl; lia].
+    apply Forall_forall. intros x Hx. apply repeat_spec in Hx. lia.
+  - destruct (IH ltac:(lia)) as (F & M). apply (Permutation_Forall P) in F.
+    apply Forall_app in F. destruct F as [Fb Fr]. split.
+    + apply Forall_app. split.
+      * exact (expand_le t _ _ (expand_split_all b) Fb).
+      * eapply Forall_impl; [|exact Fr]. simpl. lia.
+    + rewrite app_length, split_all_length by (eapply Forall_impl; [|exact Fb]; simpl; lia).
+      apply Permutation_length in P. rewrite app_length in P. cbn [most]. lia. Qed.
+
+(* ---- Corollary 6: the bound is reached ---- *)
+
+Lemma both_runs N t : exists s, run (start N) t s /\ any_run N t s.
+Proof. induction t as [|t (s & R & A)]; [exists (start N); split; constructor|].
+  exists (split_all (firstn p s) ++ skipn p s). split.
+  - econstructor; [exact R|]. rewrite <- (firstn_skipn p s) at 1. constructor.
+    + rewrite firstn_skipn, firstn_length. auto.
+    + apply expand_split_all.
+  - econstructor; [exact A| |rewrite firstn_length; lia]. now rewrite firstn_skipn. Qed.
+Theorem stack_exact_reached N : exists s, run (start N) (k - 1) s /\ length s = most N (k - 1).
+Proof. destruct (both_runs N (k - 1)) as (s & R & A). exists s. split; auto.
+  pose proof (stack_exact _ _ _ R). destruct (any_order _ _ _ A ltac:(lia)). lia. Qed.
+
+(* ---- ADAPTIVE ---- *)
+
+Variable C : nat. (* the capacity *)
+
+(* index + k - level <= C, where the index counts from 0 at the bottom. *)
+Fixpoint safe (s : list nat) : Prop :=
+  match s with [] => True | l :: t => length t + k <= C + l /\ safe t end.
+
+Lemma safe_app_r a b : safe (a ++ b) -> safe b.
+Proof. induction a; simpl; tauto. Qed.
+
+(* Lemma 7 *)
+Lemma safe_start N : N + k - 1 <= C -> safe (start N).
+Proof. intro H. unfold start. induction N as [|N IH]; cbn [repeat safe]; auto.
+  rewrite repeat_length. split; [lia|apply IH; lia]. Qed.
+Lemma safe_fits s : safe s -> Forall (fun x => x < k) s -> length s <= C.
+Proof. destruct s as [|l t]; cbn [safe length]; intros H F; [lia|]. inversion F; subst. lia. Qed.
+Lemma safe_any b r b' : safe (split_all b ++ r) -> expand b b' -> safe (b' ++ r).
+Proof. intros S E. induction E as [|l b b' E IH|l b b' Hl E IH]; auto.
+  - apply IH. unfold split_all in *. cbn [flat_map] in S. rewrite <- app_assoc in S.
+    eapply safe_app_r; eauto.
+  - pose proof (expand_le_split_all _ _ E) as L. unfold split_all in *. cbn [flat_map] in S.
+    destruct (Nat.ltb_spec (Datatypes.S l) k); [|lia].
+    cbn [app safe length] in *. rewrite !app_length in *. destruct S as (A & B & D).
+    repeat split; auto; lia. Qed.
+Lemma safe_one l t : safe (l :: t) -> safe (split_all [l] ++ t).
+Proof. unfold split_all. cbn [flat_map]. rewrite app_nil_r.
+  destruct (Nat.ltb_spec (S l) k); cbn [app safe length]; intros (A & B); repeat split; auto; lia. Qed.
+
+(* An iteration of ADAPTIVE takes any batch, not empty, of which all may be split. *)
+Inductive adaptive (s0 : list nat) : nat -> list nat -> Prop :=
+| adaptive_0 : adaptive s0 0 s0
+| adaptive_S : forall t b r b', adaptive s0 t (b ++ r) -> b <> [] -> safe (split_all b ++ r) ->
+    expand b b' -> adaptive s0 (S t) (b' ++ r).
+
+(* Surfaces that can still be processed. *)
+Fixpoint weight (s : list nat) : nat :=
+  match s with [] => 0 | l :: t => (2 ^ (k - l) - 1) + weight t end.
+Lemma weight_app a b : weight (a ++ b) = weight a + weight b.
+Proof. induction a; simpl; lia. Qed.
+Lemma weight_expand b b' : expand b b' -> Forall (fun x => x < k) b ->
+  weight b' + length b <= weight b.
+Proof. induction 1 as [|l b b' E IH|l b b' Hl E IH]; intro F; auto;
+    inversion F; subst; specialize (IH H2); cbn [weight length].
+  - pose proof (Nat.pow_le_mono_r 2 1 (k - l) ltac:(lia) ltac:(lia)). simpl in *. lia.
+  - replace (k - l) with (S (k - S l)) by lia. cbn [Nat.pow].
+    pose proof (Nat.pow_le_mono_r 2 1 (k - S l) ltac:(lia) ltac:(lia)). simpl in *. lia. Qed.
+
+(* Theorem 8 *)
+Theorem adaptive_correct N t s : N + k - 1 <= C -> adaptive (start N) t s ->
+  sorted s /\ safe s /\ Forall (fun x => x < k) s /\ weight s + t <= weight (start N).
+Proof. intros H. induction 1 as [|t b r b' R (D & A & F & W) Hb Sa E].
+  - repeat split; [apply sorted_repeat|now apply safe_start| |lia].
+    apply Forall_forall. intros x Hx. apply repeat_spec in Hx. lia.
+  - repeat split; [eapply stays_sorted; eauto|eapply safe_any; eauto|eapply levels_lt; eauto|].
+    apply Forall_app in F. destruct F as [Fb Fr]. pose proof (weight_expand _ _ E Fb).
+    rewrite !weight_app in *. destruct b; [contradiction|]. simpl in *. lia. Qed.
+Corollary adaptive_fits N t s : N + k - 1 <= C -> adaptive (start N) t s -> length s <= C.
+Proof. intros H R. destruct (adaptive_correct _ _ _ H R) as (_ & S & F & _). now apply safe_fits. Qed.
+Corollary adaptive_goes_on N t s : N + k - 1 <= C -> adaptive (start N) t s -> s <> [] ->
+  exists s', adaptive (start N) (S t) s'.
+Proof. intros H R Hs. destruct (adaptive_correct _ _ _ H R) as (_ & S & _ & _).
+  destruct s as [|l r]; [contradiction|]. eexists. eapply (adaptive_S _ _ [l] r); eauto.
+  - discriminate.
+  - now apply safe_one.
+  - apply expand_split_all. Qed.
+Corollary adaptive_ends N t s : N + k - 1 <= C -> adaptive (start N) t s -> t <= N * (2 ^ k - 1).
+Proof. intros H R. destruct (adaptive_correct _ _ _ H R) as (_ & _ & _ & W).
+  assert (weight (start N) = N * (2 ^ k - 1)); [|lia].
+  unfold start. clear. induction N; cbn [repeat weight]; auto. rewrite IHN, Nat.sub_0_r. lia. Qed.
+
+(* Theorem 9: the largest batch. f of stack.md is 2 index + k - level - C, or 0 if that is negative. *)
+Fixpoint need (b r : list nat) : nat :=
+  match b with
+  | [] => 0
+  | l :: b' => Nat.max (if S l <? k then 2 * (length b' + length r) + k - l - C else 0) (need b' r)
+  end.
+Definition base (s : list nat) := Nat.max (length s - p) (need (firstn p s) (skipn p s)).
+
+Lemma need_app a b r : need (a ++ b) r = Nat.max (need a (b ++ r)) (need b r).
+Proof. induction a as [|l a IH]; cbn [app need]; [lia|]. rewrite IH, !app_length.
+  replace (length a + length b + length r) with (length a + (length b + length r)) by lia. lia. Qed.
+Lemma need_safe b r : safe (b ++ r) -> b <> [] -> need b r < length (b ++ r).
+Proof. induction b as [|l b IH]; [contradiction|]. intros S _.
+  cbn [app safe need length] in *. destruct S as (A & B). rewrite app_length in *.
+  assert (need b r <= length b + length r).
+  { destruct b; [simpl; lia|]. specialize (IH B ltac:(discriminate)). simpl in *. lia. }
+  destruct (Nat.ltb_spec (S l) k); lia. Qed.
+Lemma need_exact b r : sorted (b ++ r) -> safe r ->
+  (safe (split_all b ++ r) <-> need b r <= length r).
+Proof. intros D Sr. induction b as [|l b IH]; cbn [app sorted need] in *; [split; [lia|auto]|].
+  destruct D as (F & D). specialize (IH D). unfold split_all in *. cbn [flat_map].
+  destruct (Nat.ltb_spec (S l) k) as [H|H].
+  - assert (L : length (split_all b) = 2 * length b).
+    { apply split_all_length. apply Forall_app in F. destruct F as [F _].
+      eapply Forall_impl; [|exact F]. simpl. lia. }
+    unfold split_all in L. cbn [app safe length]. rewrite app_length, L. rewrite IH. lia.
+  - cbn [app]. rewrite IH. lia. Qed.
+
+Theorem base_exact s c : sorted s -> safe s -> c <= p -> c <= length s ->
+  (safe (split_all (firstn c s) ++ skipn c s) <-> base s <= length s - c).
+Proof. intros D S Hc Hs.
+  assert (Q : need (firstn p s) (skipn p s) <= length s - c <->
+              need (firstn c s) (skipn c s) <= length s - c).
+  { pose proof (firstn_skipn c (firstn p s)) as W. rewrite firstn_firstn, Nat.min_l in W by lia.
+    assert (T : skipn c (firstn p s) ++ skipn p s = skipn c s).
+    { apply (app_inv_head (firstn c s)). rewrite app_assoc, W, !firstn_skipn. auto. }
+    rewrite <- W at 1. rewrite need_app, T.
+    assert (need (skipn c (firstn p s)) (skipn p s) <= length s - c); [|lia].
+    pose proof (firstn_skipn c s) as X. rewrite <- X in S. apply safe_app_r in S. rewrite <- T in S.
+    destruct (skipn c (firstn p s)) as [|h w] eqn:Y; [simpl; lia|].
+    pose proof (need_safe _ _ S ltac:(discriminate)). rewrite T, skipn_length in H. lia. }
+  unfold base. rewrite need_exact.
+  - rewrite skipn_length. lia.
+  - now rewrite firstn_skipn.
+  - rewrite <- (firstn_skipn c s) in S. eapply safe_app_r; eauto. Qed.
+Theorem base_takes s : safe s -> s <> [] -> base s < length s.
+Proof. intros S H. unfold base. pose proof (firstn_skipn p s) as Q.
+  assert (Y : firstn p s <> []) by (destruct s, p; [contradiction|contradiction|lia|discriminate]).
+  rewrite <- Q in S. pose proof (need_safe _ _ S Y) as N. rewrite Q in N.
+  destruct s; [contradiction|]. simpl length in *. lia. Qed.
+
+(* Lemma 10: room for the whole batch, seen at the level m of its lowest entry only. *)
+Lemma base_quick s m : Forall (fun x => m <= x) (firstn p s) ->
+  (S m < k -> 2 * (length s - 1) + k <= C + m + (length s - p)) -> base s = length s - p.
+Proof. intros F H. unfold base. pose proof (firstn_length p s). pose proof (skipn_length p s).
+  assert (need (firstn p s) (skipn p s) <= length s - p); [|lia].
+  assert (G : forall b r, Forall (fun x => m <= x) b -> length b + length r <= length s ->
+    need b r <= length s - p).
+  { induction b as [|l b IH]; intros r Fb L; cbn [need length] in *; [lia|].
+    inversion Fb; subst. specialize (IH r H5 ltac:(lia)).
+    destruct (Nat.ltb_spec (S l) k); lia. }
+  apply G; auto. lia. Qed.
+
+(* Theorem 11: with the capacity of BOUNDED no batch is shortened. *)
+Lemma exact_safe N t s : most N (k - 1) <= C -> run (start N) t s -> safe s.
+Proof. intros HC R. pose proof (run_lt _ _ _ R) as K.
+  destruct (run_layered _ _ _ _ R) as (D & _).
+  assert (B : forall l, shallow l s <= most N l) by (intro l; exact (levels_bound l 0 N t s R)).
+  clear R. induction s as [|l s IH]; cbn [safe]; auto.
+  cbn [sorted] in D. destruct D as (F & D). inversion K; subst. split.
+  - specialize (B l). unfold shallow in B. cbn [deep length] in B.
+    destruct (Nat.leb_spec (S l) l); [lia|].
+    rewrite deep_none in B by (eapply Forall_impl; [|exact F]; simpl; lia).
+    assert (1 <= N).
+    { destruct N; [|lia]. assert (Z : forall j, most 0 j = 0)
+        by (induction j; cbn [most]; lia). rewrite Z in B. lia. }
+    pose proof (most_grows N l (k - 1 - l) ltac:(auto)) as G.
+    replace (l + (k - 1 - l)) with (k - 1) in G by lia. lia.
+  - apply IH; auto. intro i. specialize (B i). unfold shallow in *. cbn [deep length] in B.
+    destruct (Nat.leb_spec (S i) l); lia. Qed.
+Theorem full_width N t s : most N (k - 1) <= C -> run (start N) t s -> base s = length s - p.
+Proof. intros HC R.
+  assert (St : step s (split_all (firstn p s) ++ skipn p s)).
+  { rewrite <- (firstn_skipn p s) at 1. constructor; [|apply expand_split_all].
+    rewrite firstn_skipn, firstn_length. auto. }
+  pose proof (exact_safe _ _ _ HC (run_S _ _ _ _ R St)) as S'.
+  pose proof (exact_safe _ _ _ HC R) as S.
+  destruct (run_layered _ _ _ _ R) as (D & _).
+  assert (Q : split_all (firstn p s) ++ skipn p s =
+    split_all (firstn (Nat.min p (length s)) s) ++ skipn (Nat.min p (length s)) s).
+  { destruct (le_lt_dec (length s) p).
+    - rewrite Nat.min_r by auto. now rewrite !firstn_all2, !skipn_all2 by auto.
+    - now rewrite Nat.min_l by lia. }
+  rewrite Q in S'. apply (base_exact s (Nat.min p (length s)) D S) in S'; try lia.
+  unfold base in *. lia. Qed.
+End Stack.
+
+(* Theorem 5 for batches of one and more: below N + k - 1 entries nothing works. *)
+Corollary capacity_needed N k t s : 1 <= N -> any_run 1 k N t s -> t < k -> N + t <= length s.
+Proof. intros H R L. assert (K : 1 <= k) by lia.
+  destruct (any_order 1 k (le_n 1) K N t s R L) as (_ & B).
+  rewrite (most_wide 1 k (le_n 1) K N t H) in B. lia. Qed.
+
+Print Assumptions stack_exact.
+Print Assumptions stack_bound.
+Print Assumptions stack_bound_wide.
+Print Assumptions most_closed.
+Print Assumptions stack_exact_reached.
+Print Assumptions capacity_needed.
+Print Assumptions adaptive_fits.
+Print Assumptions adaptive_goes_on.
+Print Assumptions adaptive_ends.
+Print Assumptions base_exact.
+Print Assumptions base_takes.
+Print Assumptions base_quick.
+Print Assumptions full_width.

@@ -1,0 +1,165 @@
+//! What subdivision costs: scheduler × batch × scene × device, as in Weber 2014, Table 7.2.
+//!
+//! Nothing is diced or sampled here, so that schedulers are compared and nothing else.
+
+use std::time::Instant;
+
+use micropoly_core::backend::Device;
+use micropoly_core::memory::Sizes;
+use micropoly_core::render::FramePlan;
+use micropoly_core::schedule::Scheduler;
+use serde::Serialize;
+
+use crate::backend::Backend;
+use crate::devices::{DeviceEntry, Job, with_device};
+use crate::error::{Error, Result};
+use crate::render::{Batch, RenderOptions, sizes_for};
+use crate::scene::Scene;
+
+/// One line of the table.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// The scene.
+    pub scene: String,
+    /// Name of the backend.
+    pub backend: &'static str,
+    /// Name of the device.
+    pub device: String,
+    /// Name of the scheduler.
+    pub scheduler: &'static str,
+    /// Surfaces a batch; 0 where the scheduler takes what there is.
+    pub batch: u32,
+    /// Wall time in seconds: the shortest of all runs.
+    pub seconds: f64,
+    /// Bytes of all that subdivision needs: stack, batch and draw buffer, but neither scene nor image.
+    pub memory: u64,
+    /// Largest number of surfaces on the stack.
+    pub max: u64,
+    /// Surfaces that were bounded.
+    pub processed: u64,
+    /// Surfaces that would be drawn.
+    pub drawn: u64,
+    /// Batches that were taken.
+    pub batches: u64,
+    /// Million surfaces bounded a second.
+    pub rate: f64,
+}
+
+/// What is to be measured.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The devices.
+    pub devices: Vec<DeviceEntry>,
+    /// The schedulers.
+    pub schedulers: Vec<Scheduler>,
+    /// Batch sizes, for the schedulers that have one.
+    pub batches: Vec<u32>,
+    /// Runs of each; the shortest counts.
+    pub repeat: u32,
+    /// Everything else.
+    pub options: RenderOptions,
+}
+
+impl Plan {
+    /// Measures one scene; `progress` is given each row as it is done.
+    ///
+    /// # Errors
+    /// [`Error::Refused`], [`Error::Plan`] or [`Error::Device`].
+    pub fn run(&self, scene: &Scene, mut progress: impl FnMut(&Row)) -> Result<Vec<Row>> {
+        let mut rows = Vec::new();
+        for entry in &self.devices {
+            let job = OnDevice { plan: self, scene, entry, progress: &mut progress };
+            rows.extend(with_device(entry, self.options.threads, job)??);
+        }
+        Ok(rows)
+    }
+
+    /// Schedulers with the batches that make sense for them.
+    fn cases(&self) -> impl Iterator<Item = (Scheduler, u32)> {
+        self.schedulers.iter().flat_map(|&scheduler| {
+            let batches: &[u32] = match scheduler {
+                Scheduler::Stack | Scheduler::Breadth => &[1],
+                Scheduler::Bounded | Scheduler::Adaptive => &self.batches,
+            };
+            batches.iter().map(move |&batch| (scheduler, batch))
+        })
+    }
+}
+
+/// The part of the table for one device.
+struct OnDevice<'a, F> {
+    plan: &'a Plan,
+    scene: &'a Scene,
+    entry: &'a DeviceEntry,
+    progress: &'a mut F,
+}
+
+impl<F: FnMut(&Row)> Job for OnDevice<'_, F> {
+    type Output = Result<Vec<Row>>;
+
+    fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
+        let mut rows = Vec::new();
+        for (scheduler, batch) in self.plan.cases() {
+            let options =
+                RenderOptions { scheduler, batch: Batch::Surfaces(batch), ..self.plan.options.clone() };
+            let row = measure(&mut device, self.entry, self.scene, &options, self.plan.repeat)?;
+            (self.progress)(&row);
+            rows.push(row);
+        }
+        Ok(rows)
+    }
+}
+
+fn measure<D: Device>(
+    device: &mut D,
+    entry: &DeviceEntry,
+    scene: &Scene,
+    options: &RenderOptions,
+    repeat: u32,
+) -> Result<Row> {
+    let failed = |error: D::Error| Error::Device(error.to_string());
+    let on_device = scene.for_device(&options.frame)?;
+    let sizes: Sizes = sizes_for(scene, options)?;
+    let plan = FramePlan::with_sizes(on_device.frame, sizes).map_err(Error::Plan)?.without_drawing();
+    let before = device.bytes_allocated();
+    let (mut seconds, mut counts, mut memory) = (f64::INFINITY, None, 0);
+    for _ in 0..repeat.max(1) {
+        let mut buffers = plan.prepare(device, &on_device.objects, &on_device.patches).map_err(failed)?;
+        let start = Instant::now();
+        counts = Some(plan.run(device, &mut buffers, |_| {}).map_err(failed)?);
+        seconds = seconds.min(start.elapsed().as_secs_f64());
+        memory = device.bytes_allocated() - before - plan.sizes().fixed_bytes();
+    }
+    let counts = counts.unwrap_or_default();
+    let has_batch = matches!(options.scheduler, Scheduler::Bounded | Scheduler::Adaptive);
+    Ok(Row {
+        scene: scene.name.clone(),
+        backend: entry.backend.name(),
+        device: entry.name.clone(),
+        scheduler: options.scheduler.name(),
+        batch: if has_batch { plan.sizes().batch } else { 0 },
+        seconds,
+        memory,
+        max: counts.max_stack,
+        processed: counts.processed,
+        drawn: counts.drawn,
+        batches: counts.batches,
+        rate: counts.processed as f64 / seconds * 1e-6,
+    })
+}
+
+/// The devices that a choice of backend means: all, or those of one.
+///
+/// # Errors
+/// [`Error::Backend`] if the one that was named has none.
+pub fn devices(only: Option<Backend>) -> Result<Vec<DeviceEntry>> {
+    match only {
+        Some(backend) => {
+            crate::devices::devices_of(backend).map_err(|missing| backend.unavailable(missing.why))
+        }
+        None => Ok(Backend::ALL
+            .into_iter()
+            .flat_map(|backend| crate::devices::devices_of(backend).unwrap_or_default())
+            .collect()),
+    }
+}
