@@ -76,7 +76,8 @@ fn stages(file: &str) -> Vec<Stage> {
     match file {
         "num.cl" => vec![Stage::KnownAnswers, Stage::Bound, Stage::Draw],
         "surface.cl" => vec![Stage::Seed, Stage::Split, Stage::Bound, Stage::Draw],
-        "bezier.cl" | "net.cl" | "project.cl" => vec![Stage::Bound, Stage::Draw],
+        "bezier.cl" | "net.cl" | "gregory.cl" | "project.cl" => vec![Stage::Bound, Stage::Draw],
+        "weber.cl" => vec![Stage::Bound],
         _ => {
             let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));
             vec![own.unwrap_or(Stage::Draw)]
