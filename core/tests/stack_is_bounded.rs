@@ -93,8 +93,8 @@ fn worst_within(n: u32, p: u32, levels: u32, room: u32) -> u32 {
 fn largest_safe(stack: &[u32], p: u32, levels: u32, room: u32) -> u32 {
     let is_safe = |batch: u32| {
         let (below, top) = stack.split_at(stack.len() - batch as usize);
-        // Of the last level none is split; then the next below it lies where its first child would.
-        let children = top.iter().flat_map(|level| [(level + 1).min(levels); 2]);
+        // Of the last level none is split.
+        let children = top.iter().filter(|&&level| level + 1 < levels).flat_map(|level| [level + 1; 2]);
         let after = below.iter().copied().chain(children);
         (0..).zip(after).all(|(index, level)| index + levels <= room + level)
     };
