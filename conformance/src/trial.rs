@@ -25,7 +25,7 @@ const MOST: usize = 2;
 /// to it, and a survivor is told of all the same.
 const TOLERANCE: usize = 20;
 /// After this long a mutant counts as hanging; kernels that nobody changed are given four times as long.
-const PATIENCE: Duration = Duration::from_secs(45);
+const PATIENCE: Duration = Duration::from_secs(30);
 /// Argument before file and number of a mutant, for the process that runs it.
 const ONE: &str = "--mutant";
 /// In the place of a file: nothing is changed, and the number is that of a stage.
