@@ -7,8 +7,8 @@ use std::ops::RangeInclusive;
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_WEBER, Frame, Limits, MAX_LEVELS, MAX_SPLITS,
-    Object, PARAM_ONE, Patch, Sample, Shared, Slot, Surface, Verdict,
+    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, Limits,
+    MAX_LEVELS, MAX_SPLITS, Object, PARAM_ONE, Patch, Sample, Shared, Slot, Surface, Verdict,
 };
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::kernel::bound::bound_any;
@@ -20,7 +20,9 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 32;
+pub const ROUNDS: u64 = 40;
+/// From this one on the draw stage is given what chance seldom brings about.
+const RARE: u64 = 32;
 
 fn words<T: NoUninit>(entries: &[T]) -> Vec<u32> {
     bytemuck::cast_slice::<T, u8>(entries)
@@ -43,7 +45,7 @@ pub fn input(stage: Stage, round: u64) -> Input {
         Stage::Bound => bounds(&mut random),
         Stage::Scan => scans(&mut random),
         Stage::Split => splits(&mut random),
-        Stage::Draw => draws(&mut random),
+        Stage::Draw => draws(&mut random, round),
         Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
         Stage::KnownAnswers => known(&mut random),
     };
@@ -289,9 +291,21 @@ fn splits(random: &mut fastrand::Rng) -> Parts {
     (Items::Taken, buffers)
 }
 
-fn draws(random: &mut fastrand::Rng) -> Parts {
+/// Micropolygons of 16 to 60 pixels in small grids, whose areas have more bits than a float; and, every other
+/// time, grids of one micropolygon that is cut by the near plane, where those that show their back are skipped.
+fn rarely(frame: &mut Frame, round: u64) -> RangeInclusive<u32> {
+    let is_cut = round % 2 == 1;
+    frame.flags = if is_cut { FLAG_CULL_BACKFACES } else { 0 };
+    frame.rate = if is_cut { 1 } else { 1 << (round / 2 % 2) };
+    if is_cut { 0..=4 } else { 2..=4 }
+}
+
+fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     let (mut frame, objects, patches) = scene(random);
-    let splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
+    let mut splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
+    if round >= RARE {
+        splits = rarely(&mut frame, round);
+    }
     // Whatever is not culled is drawn, however large; but Weber's rules cull what is at the deepest level.
     frame.levels = if frame.flags & FLAG_WEBER == 0 { 1 } else { MAX_LEVELS };
     frame.bound = [4.0, 12.0, 40.0][random.usize(0..3)]; // now and then a neighbour may be larger: seams
