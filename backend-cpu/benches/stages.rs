@@ -5,9 +5,10 @@
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, DRAW, DRAW_LIMITED, Draw, Frame, Object, Patch, SPLIT_U, Sample, Surface,
+    CULL, Colour, DRAW, DRAW_LIMITED, Draw, Frame, Object, Patch, SPLIT_U, Sample, Surface, Verdict,
 };
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
+use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
 use micropoly_core::kernel::{
     bound::bound, dice::Grid, dice::dice, sample::Band, sample::sample, shade::shade,
 };
@@ -66,6 +67,12 @@ fn bound_all(ball: &Ball) -> u32 {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
+fn bound_all_in_lanes(ball: &Ball, verdicts: &mut [Verdict]) {
+    let objects = std::slice::from_ref(&ball.object);
+    bound_lanes(&ball.frame, objects, &ball.patches, &ball.bounded, verdicts, &mut Lanes::default());
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
 fn dice_all(ball: &Ball, grids: &mut [Grid]) {
     for (index, draw) in ball.draws.iter().enumerate() {
         let net = Net::in_eye_space(&ball.patches[draw.patch_id as usize], &ball.object);
@@ -95,7 +102,11 @@ fn stages(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("stages");
 
     group.throughput(Throughput::Elements(ball.bounded.len() as u64));
-    group.bench_function("bound (surfaces)", |bencher| bencher.iter(|| bound_all(&ball)));
+    let mut verdicts = vec![Verdict::default(); ball.bounded.len()];
+    group.bench_function("bound (surfaces)", |bencher| {
+        bencher.iter(|| bound_all_in_lanes(&ball, &mut verdicts));
+    });
+    group.bench_function("bound one by one (surfaces)", |bencher| bencher.iter(|| bound_all(&ball)));
 
     let mut hot = vec![Grid::default(); 2];
     group.throughput(Throughput::Elements(vertices));

@@ -5,6 +5,7 @@
 use micropoly_core::abi::{
     Colour, Control, Draw, Frame, Limits, Object, Patch, Question, Sample, Slot, Surface, Verdict,
 };
+use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
 use micropoly_core::kernel::dice::{Grid, dice};
 use micropoly_core::kernel::dice_gregory::dice_gregory;
 use micropoly_core::kernel::known_answers::answer as known_answer;
@@ -12,7 +13,7 @@ use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::scan::scan as scan_batch;
 use micropoly_core::kernel::shade::shade;
 use micropoly_core::kernel::split::{Outcome, split as split_one};
-use micropoly_core::kernel::{bound::bound_any, seed as seeding, take as taking};
+use micropoly_core::kernel::{seed as seeding, take as taking};
 use micropoly_core::patch::{Faces, Net};
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -61,6 +62,10 @@ pub(crate) fn bound(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>) -> Resul
     let (objects, patches) = (&*objects, &*patches);
     batch[..taken.len()].copy_from_slice(taken);
     let verdicts = &mut verdicts[..taken.len()];
+    if taken.len() <= BOUND_CHUNK {
+        bound_chunk(&frame, objects, patches, taken, verdicts); // done before another thread wakes up
+        return Ok(());
+    }
     pool.install(|| {
         taken
             .par_chunks(BOUND_CHUNK)
@@ -90,9 +95,7 @@ fn bound_chunk(
     surfaces: &[Surface],
     verdicts: &mut [Verdict],
 ) {
-    for (surface, verdict) in surfaces.iter().zip(verdicts) {
-        *verdict = bound_any(frame, objects, patches, *surface);
-    }
+    bound_lanes(frame, objects, patches, surfaces, verdicts, &mut Lanes::default());
 }
 
 pub(crate) fn scan(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {

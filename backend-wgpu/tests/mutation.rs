@@ -46,12 +46,6 @@ const ALLOWED: &[Allowed] = &[
         why: "a kernel that looks for grids of its kind finds none",
     },
     Allowed {
-        file: "draw.wgsl",
-        line: "let narrow = atomicLoad(&high_x) - atomicLoad(&low_x) <= NARROW",
-        operator: " - ",
-        why: "a narrow grid may go through the kernel for any grid; a wide one about the left edge is rare",
-    },
-    Allowed {
         file: "scan.wgsl",
         line: "let run = (taken + RUNS - 1u) / RUNS;",
         operator: " - ",

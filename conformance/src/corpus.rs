@@ -300,11 +300,21 @@ fn rarely(frame: &mut Frame, round: u64) -> RangeInclusive<u32> {
     if is_cut { 0..=4 } else { 2..=4 }
 }
 
+/// Where patches look like ribbons, two thousand pixels wide and some fifty high, about the left edge of the image.
+fn ribbons(frame: &Frame, object: &mut Object) {
+    let (width, height, left) = (1000.0 / frame.focal, 25.0 / frame.focal, -frame.centre_x / frame.focal);
+    object.to_eye = [width, 0.0, 0.0, left, 0.0, height, 0.0, 0.0, 0.0, 0.0, 0.01, -1.0];
+}
+
 fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
-    let (mut frame, objects, patches) = scene(random);
+    let (mut frame, mut objects, patches) = scene(random);
     let mut splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
     if round >= RARE {
         splits = rarely(&mut frame, round);
+        if round % 4 == 2 {
+            (splits, frame.rate) = (0..=0, 1);
+            objects.iter_mut().for_each(|object| ribbons(&frame, object));
+        }
     }
     // Whatever is not culled is drawn, however large; but Weber's rules cull what is at the deepest level.
     frame.levels = if frame.flags & FLAG_WEBER == 0 { 1 } else { MAX_LEVELS };

@@ -2,32 +2,14 @@
 
 mod common;
 
-use common::{between, random, random_patch, random_surface, random_view};
+use common::{random, random_gregory, random_surface, random_view};
 use micropoly_core::abi::{CULL, DRAW, FLAG_WEBER, Frame, Object, PARAM_ONE, Patch, Surface, Verdict};
 use micropoly_core::kernel::bound::bound_any;
 use micropoly_core::kernel::dice::{Grid, dice, position_at};
 use micropoly_core::kernel::dice_gregory::{Vertex, dice_gregory, evaluate_gregory};
 use micropoly_core::kernel::triangle::pixels_between;
-use micropoly_core::patch::gregory::{INNER, patch_count};
+use micropoly_core::patch::gregory::patch_count;
 use micropoly_core::patch::{Faces, Net};
-
-/// A patch and the record of its face points, which lie around its inner points.
-fn random_gregory(random: &mut fastrand::Rng, roughness: f32, apart: f32) -> [Patch; 2] {
-    let mut patch = random_patch(random, roughness);
-    let mut record = Patch::default();
-    for (m, at) in INNER.into_iter().enumerate() {
-        let mut place = |c: &mut [f32; 16], faces: &mut [f32; 16]| {
-            faces[m] = c[at] + between(random, -apart, apart);
-            faces[4 + m] = c[at] + between(random, -apart, apart);
-            c[at] = 0.5 * (faces[m] + faces[4 + m]);
-        };
-        place(&mut patch.x, &mut record.x);
-        place(&mut patch.y, &mut record.y);
-        place(&mut patch.z, &mut record.z);
-    }
-    patch.faces = 1;
-    [patch, record]
-}
 
 struct Case {
     frame: Frame,

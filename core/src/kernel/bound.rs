@@ -100,25 +100,23 @@ impl Hull {
 
     /// What the image shows of a hull that lies beyond the near plane, `nearest` away.
     #[inline(always)]
-    fn seen(&self, frame: &Frame, nearest: f32) -> Seen {
-        let (x, y) = on_screen(frame, &self.part);
-        let scale = recip(nearest);
+    fn seen(&self, frame: &Frame, nearest: f32, x: &[f32; 16], y: &[f32; 16]) -> Seen {
         let wobble = match &self.apart {
             None => 0.0,
             Some(apart) => {
-                let off_axis = max(largest(&x), largest(&y));
-                mul(mul(add(frame.focal, off_axis), apart.spread), scale)
+                let off_axis = max(largest(x), largest(y));
+                mul(mul(add(frame.focal, off_axis), apart.spread), recip(nearest))
             }
         };
-        let margin = add(add(1.0, mul(mul(frame.focal, self.slack), scale)), wobble);
-        Seen { x, y, margin }
+        let margin = add(margin(frame, self.slack, nearest), wobble);
+        Seen { x: Reach::of(x), y: Reach::of(y), margin }
     }
 
-    /// Lengths along u and along v on screen.
+    /// Lengths along u and along v on screen, where the hull is seen at `x` and `y`.
     #[inline(always)]
-    fn extents(&self, frame: &Frame, seen: &Seen) -> (f32, f32) {
+    fn extents(&self, frame: &Frame, x: &[f32; 16], y: &[f32; 16]) -> (f32, f32) {
         match &self.apart {
-            None => (length_u(&seen.x, &seen.y), length_v(&seen.x, &seen.y)),
+            None => (length_u(x, y), length_v(x, y)),
             Some(apart) => {
                 let (x, y) = on_screen(frame, &apart.follower);
                 (length_u(&x, &y), length_v(&x, &y))
@@ -127,27 +125,65 @@ impl Hull {
     }
 }
 
-/// Control points on screen, in pixels from the optical axis.
-struct Seen {
-    x: [f32; 16],
-    y: [f32; 16],
-    /// How far the surface can be outside of their hull.
-    margin: f32,
+/// How far, in pixels, rounding and the snap can move what is drawn of a surface that is `nearest` away.
+#[inline(always)]
+pub(super) fn margin(frame: &Frame, slack: f32, nearest: f32) -> f32 {
+    add(1.0, mul(mul(frame.focal, slack), recip(nearest)))
+}
+
+/// Least and largest of one coordinate on screen, in pixels from the optical axis.
+#[derive(Clone, Copy)]
+pub(super) struct Reach {
+    pub(super) low: f32,
+    pub(super) high: f32,
+}
+
+impl Reach {
+    #[inline(always)]
+    pub(super) fn of(offsets: &[f32; 16]) -> Self {
+        Self { low: fold(offsets, min), high: fold(offsets, max) }
+    }
+
+    /// First pixel that it, widened by `margin`, can touch, and one past the last; within the image.
+    #[inline(always)]
+    fn pixels(self, centre: f32, size: u32, margin: f32) -> (i32, i32) {
+        let size = float(size as i32);
+        let low = sub(add(self.low, centre), margin);
+        let high = add(add(self.high, centre), add(margin, 1.0));
+        (floor(clamp(low, 0.0, size)), floor(clamp(high, 0.0, size)))
+    }
+}
+
+/// Where on screen the control points of a surface lie.
+#[derive(Clone, Copy)]
+pub(super) struct Seen {
+    pub(super) x: Reach,
+    pub(super) y: Reach,
+    /// How far the surface can be outside of their hull, pixels.
+    pub(super) margin: f32,
 }
 
 impl Seen {
     /// Can any pixel's sample lie on the surface?
     #[inline(always)]
-    fn is_in_view(&self, frame: &Frame) -> bool {
-        !PixelBox::around(frame, &self.x, &self.y, self.margin).is_empty()
+    pub(super) fn is_in_view(&self, frame: &Frame) -> bool {
+        !PixelBox::around(frame, self, self.margin).is_empty()
     }
 
     /// The pixels that drawing it can touch: a seam may reach beyond the surface, by no more than the longest
     /// border that can be drawn.
     #[inline(always)]
     fn pixels(&self, frame: &Frame) -> PixelBox {
-        let reach = add(self.margin, mul(frame.bound, SEAM_ALLOWANCE));
-        PixelBox::around(frame, &self.x, &self.y, reach)
+        PixelBox::around(frame, self, add(self.margin, mul(frame.bound, SEAM_ALLOWANCE)))
+    }
+
+    /// The verdict on a surface in view that is so long along u and along v.
+    #[inline(always)]
+    pub(super) fn verdict(&self, frame: &Frame, surface: Surface, extents: (f32, f32)) -> Verdict {
+        if max(extents.0, extents.1) <= frame.bound {
+            return verdict(DRAW, self.pixels(frame));
+        }
+        verdict(refine(frame, surface, extents, Some(frame.bound)), self.pixels(frame))
     }
 }
 
@@ -157,31 +193,32 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
     let nearest = hull.nearest();
     let farthest = add(neg(fold(&hull.part.z, min)), hull.spread());
     if add(farthest, hull.slack) < frame.near {
-        return verdict(CULL, PixelBox::EMPTY);
+        return Verdict::CULLED;
     }
     if nearest < frame.near {
         if beside_the_view(frame, &hull.part, add(hull.slack, hull.spread())) {
-            return verdict(CULL, PixelBox::EMPTY);
+            return Verdict::CULLED;
         }
         let code = refine(frame, surface, depth_spans(&hull.part), None);
         return verdict(code, PixelBox::whole(frame));
     }
-    let seen = hull.seen(frame, nearest);
+    let (x, y) = on_screen(frame, &hull.part);
+    let seen = hull.seen(frame, nearest, &x, &y);
     if !seen.is_in_view(frame) {
-        return verdict(CULL, PixelBox::EMPTY);
+        return Verdict::CULLED;
     }
-    let extents = hull.extents(frame, &seen);
-    if max(extents.0, extents.1) <= frame.bound {
-        return verdict(DRAW, seen.pixels(frame));
-    }
-    verdict(refine(frame, surface, extents, Some(frame.bound)), seen.pixels(frame))
+    seen.verdict(frame, surface, hull.extents(frame, &x, &y))
 }
 
 /// The pixels that drawing the surface inside a hull can touch.
 #[inline(always)]
 fn pixels_of(frame: &Frame, hull: &Hull) -> PixelBox {
     let nearest = hull.nearest();
-    if nearest < frame.near { PixelBox::whole(frame) } else { hull.seen(frame, nearest).pixels(frame) }
+    if nearest < frame.near {
+        return PixelBox::whole(frame);
+    }
+    let (x, y) = on_screen(frame, &hull.part);
+    hull.seen(frame, nearest, &x, &y).pixels(frame)
 }
 
 /// The verdict by the rules of Weber's program.
@@ -206,6 +243,11 @@ fn bound_weber(
 #[inline(always)]
 fn largest(c: &[f32; 16]) -> f32 {
     max(fold(c, max), neg(fold(c, min)))
+}
+
+impl Verdict {
+    /// Not visible.
+    pub(super) const CULLED: Self = Self { code: CULL, columns: 0, rows: 0 };
 }
 
 #[inline(always)]
@@ -284,17 +326,27 @@ fn span([a, b, c, d]: [f32; 4]) -> f32 {
 fn on_screen(frame: &Frame, part: &Net) -> ([f32; 16], [f32; 16]) {
     let (mut xs, mut ys) = ([0.0; 16], [0.0; 16]);
     for l in 0..16 {
-        let (x, y, _) = perspective(frame, [part.x[l], part.y[l], part.z[l]]);
-        xs[l] = clamp(x, neg(FAR_OFF), FAR_OFF);
-        ys[l] = clamp(y, neg(FAR_OFF), FAR_OFF);
+        [xs[l], ys[l]] = point_on_screen(frame, [part.x[l], part.y[l], part.z[l]]);
     }
     (xs, ys)
 }
 
+/// Pixel offsets of one point from the optical axis.
+#[inline(always)]
+pub(super) fn point_on_screen(frame: &Frame, point: [f32; 3]) -> [f32; 2] {
+    let (x, y, _) = perspective(frame, point);
+    [clamp(x, neg(FAR_OFF), FAR_OFF), clamp(y, neg(FAR_OFF), FAR_OFF)]
+}
+
+#[inline(always)]
+pub(super) fn distance([ax, ay]: [f32; 2], [bx, by]: [f32; 2]) -> f32 {
+    let (dx, dy) = (sub(bx, ax), sub(by, ay));
+    sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY))
+}
+
 #[inline(always)]
 fn segment(x: &[f32; 16], y: &[f32; 16], from: usize, to: usize) -> f32 {
-    let (dx, dy) = (sub(x[to], x[from]), sub(y[to], y[from]));
-    sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY))
+    distance([x[from], y[from]], [x[to], y[to]])
 }
 
 /// Length in pixels of the longest control polygon along u.
@@ -336,9 +388,9 @@ impl PixelBox {
     }
 
     #[inline(always)]
-    fn around(frame: &Frame, x: &[f32; 16], y: &[f32; 16], margin: f32) -> Self {
-        let (left, right) = pixel_range(x, frame.centre_x, frame.width, margin);
-        let (top, bottom) = pixel_range(y, frame.centre_y, frame.height, margin);
+    fn around(frame: &Frame, seen: &Seen, margin: f32) -> Self {
+        let (left, right) = seen.x.pixels(frame.centre_x, frame.width, margin);
+        let (top, bottom) = seen.y.pixels(frame.centre_y, frame.height, margin);
         Self([left, right, top, bottom])
     }
 
@@ -346,13 +398,4 @@ impl PixelBox {
     fn is_empty(&self) -> bool {
         self.0[0] >= self.0[1] || self.0[2] >= self.0[3]
     }
-}
-
-/// First pixel that the offsets, widened by `margin`, can touch, and one past the last; within the image.
-#[inline(always)]
-fn pixel_range(offsets: &[f32; 16], centre: f32, size: u32, margin: f32) -> (i32, i32) {
-    let size = float(size as i32);
-    let low = sub(add(fold(offsets, min), centre), margin);
-    let high = add(add(fold(offsets, max), centre), add(margin, 1.0));
-    (floor(clamp(low, 0.0, size)), floor(clamp(high, 0.0, size)))
 }

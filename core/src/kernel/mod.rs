@@ -2,6 +2,7 @@
 #![deny(clippy::float_arithmetic)]
 
 pub mod bound;
+pub mod bound_lanes;
 pub mod clip;
 pub mod dice;
 pub mod dice_gregory;

@@ -5,6 +5,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{Frame, Object, Patch, Surface};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::patch::Net;
+use micropoly_core::patch::gregory::INNER;
 
 /// A number generator whose seed stands in every failure message.
 pub fn random(seed: u64) -> fastrand::Rng {
@@ -24,6 +25,24 @@ pub fn random_patch(random: &mut fastrand::Rng, roughness: f32) -> Patch {
         patch.z[k] = between(random, -roughness, roughness);
     }
     patch
+}
+
+/// A patch and the record of its face points, which lie around its inner points.
+pub fn random_gregory(random: &mut fastrand::Rng, roughness: f32, apart: f32) -> [Patch; 2] {
+    let mut patch = random_patch(random, roughness);
+    let mut record = Patch::default();
+    for (m, at) in INNER.into_iter().enumerate() {
+        let mut place = |c: &mut [f32; 16], faces: &mut [f32; 16]| {
+            faces[m] = c[at] + between(random, -apart, apart);
+            faces[4 + m] = c[at] + between(random, -apart, apart);
+            c[at] = 0.5 * (faces[m] + faces[4 + m]);
+        };
+        place(&mut patch.x, &mut record.x);
+        place(&mut patch.y, &mut record.y);
+        place(&mut patch.z, &mut record.z);
+    }
+    patch.faces = 1;
+    [patch, record]
 }
 
 /// A view of 640×360 pixels from anywhere around the origin, inside the patch now and then.
