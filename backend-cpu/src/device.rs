@@ -139,7 +139,6 @@ impl Device for CpuDevice {
         }
         let threads = self.threads();
         match (stage, items) {
-            (Stage::Seed, Items::Count(patches)) => stages::seed(buffers, patches),
             (Stage::Take, _) => stages::take(buffers),
             (Stage::Bound, Items::Taken) => stages::bound(&self.pool, buffers),
             (Stage::Scan, Items::Taken) => stages::scan(buffers),

@@ -13,7 +13,7 @@ use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::scan::scan as scan_batch;
 use micropoly_core::kernel::shade::shade;
 use micropoly_core::kernel::split::{Outcome, split as split_one};
-use micropoly_core::kernel::{seed as seeding, take as taking};
+use micropoly_core::kernel::take::{self as taking, member};
 use micropoly_core::patch::{Faces, Net};
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -27,15 +27,6 @@ const BOUND_CHUNK: usize = 256;
 const BANDS_A_THREAD: usize = 4;
 
 type Buffers<'a, 'b> = &'a [&'b CpuBuffer];
-
-pub(crate) fn seed(buffers: Buffers<'_, '_>, patches: u32) -> Result<(), CpuError> {
-    let mut stack = buffers[1].view_mut::<Surface>()?;
-    for (position, surface) in stack[..patches as usize].iter_mut().enumerate() {
-        *surface = seeding::seed(position as u32, patches);
-    }
-    buffers[2].view_mut::<Control>()?[0] = seeding::start(patches);
-    Ok(())
-}
 
 pub(crate) fn take(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
     let limits = buffers[0].view::<Limits>()?[0];
@@ -58,9 +49,12 @@ pub(crate) fn bound(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>) -> Resul
     let control = buffers[3].view::<Control>()?[0];
     let stack = buffers[4].view::<Surface>()?;
     let (mut batch, mut verdicts) = (buffers[5].view_mut::<Surface>()?, buffers[6].view_mut::<Verdict>()?);
-    let taken = &stack[control.base as usize..][..control.taken as usize];
     let (objects, patches) = (&*objects, &*patches);
-    batch[..taken.len()].copy_from_slice(taken);
+    let batch = &mut batch[..control.taken as usize];
+    for (item, surface) in (0..).zip(&mut *batch) {
+        *surface = member(&control, &stack, item);
+    }
+    let taken = &*batch;
     let verdicts = &mut verdicts[..taken.len()];
     if taken.len() <= BOUND_CHUNK {
         bound_chunk(&frame, objects, patches, taken, verdicts); // done before another thread wakes up

@@ -192,7 +192,6 @@ impl Grid {
     /// The work-groups a stage needs for its items, or `None` if they do not go together.
     fn of(stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Option<Self> {
         match (stage, items) {
-            (Stage::Seed, Items::Count(count)) => Self::counted(count, &buffers[1..2]),
             (Stage::KnownAnswers, Items::Count(count)) => Self::counted(count, &buffers[1..3]),
             (Stage::Take | Stage::Flush, _) | (Stage::Scan, Items::Taken) => Some(Self::of_groups(1, 1)),
             // How many are taken only the device knows; the rest of the batch does nothing.

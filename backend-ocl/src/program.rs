@@ -20,10 +20,10 @@ macro_rules! files {
 }
 
 files! {
-    "gen.cl" "num.cl" "bezier.cl" "surface.cl" "net.cl" "gregory.cl" "project.cl" "weber.cl"
-    "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "seam.cl" "shade.cl" "triangle.cl" "clip.cl"
-    "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "seed.cl" "take.cl"
-    "flush.cl" "scan.cl" "split.cl" "known_answers.cl"
+    "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "net.cl" "gregory.cl" "project.cl" "weber.cl"
+    "take.cl" "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "seam.cl" "shade.cl" "triangle.cl" "clip.cl"
+    "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "flush.cl" "scan.cl" "split.cl"
+    "known_answers.cl"
 }
 
 /// The kernels: one a stage, and those into which the fused stage is cut.
@@ -67,8 +67,7 @@ const fn write<T: Shared>(name: &'static str) -> Argument {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 11] = [
-        Self::Stage(Stage::Seed),
+    pub const ALL: [Self; 10] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::Stage(Stage::Scan),
@@ -90,7 +89,6 @@ impl Which {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Stage(Stage::Seed) => "stage_seed",
             Self::Stage(Stage::Take) => "stage_take",
             Self::Stage(Stage::Bound) => "stage_bound",
             Self::Stage(Stage::Scan) => "stage_scan",
@@ -110,8 +108,7 @@ impl Which {
         match self {
             Self::Stage(stage) => {
                 let buffer = |b: &Binding| Argument::Buffer(b.name, b.layout, b.access);
-                let counted = matches!(stage, Stage::Seed | Stage::KnownAnswers);
-                let count = counted.then_some(Argument::Number("count"));
+                let count = (stage == Stage::KnownAnswers).then_some(Argument::Number("count"));
                 stage.bindings().iter().map(buffer).chain(count).collect()
             }
             Self::ArrangeDraw => vec![

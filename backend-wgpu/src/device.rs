@@ -221,7 +221,7 @@ impl WgpuDevice {
     fn groups(&mut self, stage: Stage, items: Items, buffers: &[&WgpuBuffer]) -> Result<Groups, WgpuError> {
         match (stage, items) {
             (Stage::Take | Stage::Flush, _) | (Stage::Scan, Items::Taken) => Ok(Groups::Known(1, 1)),
-            (Stage::Seed | Stage::KnownAnswers, Items::Count(count)) => Ok(spread(count)),
+            (Stage::KnownAnswers, Items::Count(count)) => Ok(spread(count)),
             (Stage::Bound | Stage::Split, Items::Taken) => {
                 let place = stage.bindings().iter().position(|binding| binding.name == "control");
                 let control = place.ok_or(WgpuError::Bindings { stage: stage.name() })?;

@@ -49,7 +49,7 @@ files! {
     TILES: "tiles",
     ARRANGE_DRAW: "arrange_draw",
     ARRANGE_TILES: "arrange_tiles",
-    SEED: "seed",
+    COUNTS: "counts",
     TAKE: "take",
     FLUSH: "flush",
     SCAN: "scan",
@@ -90,8 +90,7 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 15] = [
-        Self::Stage(Stage::Seed),
+    pub const ALL: [Self; 14] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
@@ -133,7 +132,6 @@ impl Which {
     #[must_use]
     pub const fn stages(self) -> &'static [Stage] {
         match self {
-            Self::Stage(Stage::Seed) => &[Stage::Seed],
             Self::Stage(Stage::Take) => &[Stage::Take],
             Self::Stage(Stage::Bound) | Self::BoundAny => &[Stage::Bound],
             Self::Stage(Stage::Scan) => &[Stage::Scan],
@@ -154,15 +152,14 @@ impl Which {
     #[must_use]
     pub const fn files(self) -> &'static [File] {
         match self {
-            Self::Stage(Stage::Seed) => &[GEN, ITEMS, SEED],
-            Self::Stage(Stage::Take) => &[GEN, SURFACE, TAKE],
+            Self::Stage(Stage::Take) => &[GEN, COUNTS, SURFACE, TAKE],
             Self::Stage(Stage::Bound) => {
                 &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND_BEZIER, BOUND]
             }
             Self::BoundAny => {
                 &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, GREGORY, WEBER, BOUND_ANY, BOUND]
             }
-            Self::Stage(Stage::Scan) => &[GEN, SCAN],
+            Self::Stage(Stage::Scan) => &[GEN, COUNTS, SCAN],
             Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, SPLIT],
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],

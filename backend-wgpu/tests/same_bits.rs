@@ -4,8 +4,9 @@ use micropoly::{FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
 use micropoly_conformance::{Case, Outcome, run};
-use micropoly_core::abi::{Control, Limits, Patch, Shared, Surface};
+use micropoly_core::abi::{Frame, Patch, Question, Shared, Surface};
 use micropoly_core::backend::Device;
+use micropoly_core::kernel::known_answers::answer;
 use micropoly_core::stage::{Items, Stage};
 
 fn open() -> WgpuDevice {
@@ -101,16 +102,17 @@ fn large_micropolygons_have_the_same_bits() {
 /// More groups than one dimension of a dispatch has.
 #[test]
 fn many_items_are_spread_over_two_dimensions() {
-    let patches = 5_000_000;
+    let count = 5_000_000;
     let mut device = open();
-    let limits = device.allocate("limits", Limits::LAYOUT, 1).expect("memory");
-    let stack = device.allocate("stack", Surface::LAYOUT, u64::from(patches)).expect("memory");
-    let control = device.allocate("control", Control::LAYOUT, 1).expect("memory");
-    device.write(&limits, &[Limits { patches, ..Limits::default() }]).expect("writes");
-    device.dispatch(Stage::Seed, Items::Count(patches), &[&limits, &stack, &control]).expect("runs");
-    let mut all = vec![Surface::default(); patches as usize];
-    device.read(&stack, 0, &mut all).expect("reads");
-    assert!(all.iter().rev().enumerate().all(|(id, surface)| *surface == Surface::root(id as u32)));
+    let frame = device.allocate("frame", Frame::LAYOUT, 1).expect("memory");
+    let asked = device.allocate("questions", Question::LAYOUT, u64::from(count)).expect("memory");
+    let answered = device.allocate("answers", u32::LAYOUT, u64::from(count)).expect("memory");
+    let questions: Vec<Question> = (0..count).map(|a| Question { operation: 16, a, b: 3, c: 0 }).collect();
+    device.write(&asked, &questions).expect("writes");
+    device.dispatch(Stage::KnownAnswers, Items::Count(count), &[&frame, &asked, &answered]).expect("runs");
+    let mut answers = vec![0; count as usize];
+    device.read(&answered, 0, &mut answers).expect("reads");
+    assert!(answers.iter().zip(&questions).all(|(found, question)| *found == answer(*question)));
 }
 
 #[test]

@@ -38,9 +38,8 @@ fn empty<T: Shared>(entries: usize) -> Vec<u32> {
 /// Input number `round` of a stage: the same for the same number.
 #[must_use]
 pub fn input(stage: Stage, round: u64) -> Input {
-    let mut random = fastrand::Rng::with_seed(round << 8 | stage as u64);
+    let mut random = fastrand::Rng::with_seed(round << 8 | number(stage));
     let (items, buffers) = match stage {
-        Stage::Seed => seed(&mut random),
         Stage::Take => take(&mut random),
         Stage::Bound => bounds(&mut random),
         Stage::Scan => scans(&mut random),
@@ -52,6 +51,19 @@ pub fn input(stage: Stage, round: u64) -> Input {
     Input { stage, items, buffers }
 }
 
+/// Tells stages apart; a new one leaves the inputs of all others as they are.
+const fn number(stage: Stage) -> u64 {
+    match stage {
+        Stage::Take => 1,
+        Stage::Bound => 2,
+        Stage::Scan => 3,
+        Stage::Split => 4,
+        Stage::Draw => 5,
+        Stage::Flush => 6,
+        Stage::KnownAnswers => 7,
+    }
+}
+
 type Parts = (Items, Vec<Vec<u32>>);
 
 fn control(random: &mut fastrand::Rng) -> Control {
@@ -59,23 +71,18 @@ fn control(random: &mut fastrand::Rng) -> Control {
     Control {
         stack: any(),
         taken: any(),
+        roots: any(),
         base: any(),
+        next_root: any(),
         waiting: any(),
         fresh: any(),
         peak: any(),
-        low: any(),
         processed: any(),
         culled: any(),
         drawn: any(),
         limited: any(),
         overflow: 0,
     }
-}
-
-fn seed(random: &mut fastrand::Rng) -> Parts {
-    let patches = random.u32(1..3000);
-    let limits = Limits { patches, ..Limits::default() };
-    (Items::Count(patches), vec![words(&[limits]), empty::<Surface>(patches as usize), empty::<Control>(1)])
 }
 
 fn take(random: &mut fastrand::Rng) -> Parts {
@@ -91,10 +98,15 @@ fn take(random: &mut fastrand::Rng) -> Parts {
         .iter()
         .map(|&level| Surface { shape: level.min(20) | level.saturating_sub(20) << 5, ..Surface::root(0) })
         .collect();
-    let spare = [50, 2 * count + 50][random.usize(0..2)];
+    let spare = [50, 2 * count + 50, 6 * count + 50][random.usize(0..3)];
     let stack_room = count + random.u32(1..spare);
-    let limits = Limits { batch: random.u32(1..2 * count + 2), levels, stack_room, ..Limits::default() };
-    let control = Control { stack: count, ..control(random) };
+    let most = [2 * count + 2, 8 * count + 8][random.usize(0..2)];
+    let batch = random.u32(1..most);
+    let most = [1, 20, 6000][random.usize(0..3)];
+    let next_root = random.u32(0..1000);
+    let patches = next_root + random.u32(0..most);
+    let limits = Limits { patches, batch, levels, stack_room, ..Limits::default() };
+    let control = Control { stack: count, next_root, ..control(random) };
     let room = if stack.is_empty() { vec![Surface::default()] } else { stack };
     (Items::Count(1), vec![words(&[limits]), words(&room), words(&[control])])
 }
@@ -230,10 +242,13 @@ fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
 
 fn bounds(random: &mut fastrand::Rng) -> Parts {
     let (frame, objects, patches) = scene(random);
-    let (base, taken) = (random.u32(0..300), random.u32(0..2000));
+    let (base, held) = (random.u32(0..300), random.u32(0..2000));
+    let roots = random.u32(0..=PATCHES);
+    let next_root = random.u32(roots..=PATCHES);
+    let taken = roots + held;
     let deepest = [4, 12, 40][random.usize(0..3)];
-    let stack: Vec<Surface> = (0..base + taken).map(|_| surface(random, PATCHES, 0..=deepest)).collect();
-    let control = Control { base, taken, stack: base + taken, ..Control::default() };
+    let stack: Vec<Surface> = (0..base + held).map(|_| surface(random, PATCHES, 0..=deepest)).collect();
+    let control = Control { base, taken, roots, next_root, stack: base + held, ..Control::default() };
     let room = (taken + random.u32(1..100)) as usize;
     let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
     let buffers = vec![

@@ -5,7 +5,7 @@ use std::path::Path;
 use micropoly_core::stage::Stage;
 
 /// Files that mirror every function of core's by its name; in the others the division of labour differs.
-const BY_NAME: [&str; 6] = ["bezier", "known_answers", "num", "project", "seed", "split"];
+const BY_NAME: [&str; 5] = ["bezier", "known_answers", "num", "project", "split"];
 
 /// The word that a text starts with.
 #[must_use]

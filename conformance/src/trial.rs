@@ -33,7 +33,7 @@ const FOUND: &str = "\nfound: ";
 const NO_CACHES: [(&str, &str); 2] = [("POCL_KERNEL_CACHE", "0"), ("MESA_SHADER_CACHE_DISABLE", "true")];
 /// Stages that are opened together, those first that are compiled and run soonest.
 const QUICK_TO_SLOW: [&[Stage]; 3] = [
-    &[Stage::Seed, Stage::Take, Stage::Flush, Stage::Scan, Stage::Split, Stage::KnownAnswers],
+    &[Stage::Take, Stage::Flush, Stage::Scan, Stage::Split, Stage::KnownAnswers],
     &[Stage::Bound],
     &[Stage::Draw],
 ];

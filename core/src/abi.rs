@@ -346,20 +346,22 @@ shared_structs! {
 
     /// The scheduler's counts; they live on the device.
     struct Control {
-        /// Surfaces on the stack.
+        /// Surfaces on the stack; roots that have not been taken yet are not among them.
         stack: u32,
         /// Size of the batch in flight.
         taken: u32,
-        /// Position on the stack of the batch's first surface.
+        /// So many surfaces of the batch, its first ones, are roots that never lay on the stack.
+        roots: u32,
+        /// Position on the stack of the batch's first surface that did lie there.
         base: u32,
+        /// Patch of the next root: roots are taken in the order of their patches.
+        next_root: u32,
         /// Draws waiting in the draw buffer before the batch in flight.
         waiting: u32,
         /// Surfaces drawn by the batch in flight.
         fresh: u32,
         /// Largest number of surfaces that lay on the stack.
         peak: u32,
-        /// Smallest number of surfaces that lay below a batch: so many roots are untouched at most.
-        low: u32,
         /// Surfaces bounded since the host last asked.
         processed: u32,
         /// Surfaces culled since the host last asked.

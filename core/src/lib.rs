@@ -6,8 +6,7 @@
 //! | step | function | file |
 //! |---|---|---|
 //! | camera and scene become plain structs | [`camera::Camera::frame`] | `camera.rs`, [`abi`] |
-//! | one root surface a patch | [`kernel::seed::seed`] | `kernel/seed.rs` |
-//! | the next batch from the top of the stack | [`kernel::take::take`] | `kernel/take.rs` |
+//! | the next batch: the top of the stack, and roots, one a patch | [`kernel::take::take`] | `kernel/take.rs` |
 //! | cull, draw or split, decided conservatively | [`kernel::bound::bound`] | `kernel/bound.rs` |
 //! | the same by the rules of Weber's program | [`kernel::weber::code`] | `kernel/weber.rs` |
 //! | where each child and each drawn surface goes | [`kernel::scan::scan`] | `kernel/scan.rs` |

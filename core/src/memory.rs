@@ -2,8 +2,8 @@
 //!
 //! The bound on the surface stack sharpens Weber 2014, sec. 4.3: `n` roots, batches of `p`, levels
 //! `0 .. k`, where level `k - 1` is never split. The stack stays sorted by level, and a batch that is full
-//! always takes the deepest surfaces, so each of the `k - 1` levels can leave at most one batch behind.
-//! `docs/proofs/stack.md` has the proof.
+//! always takes the deepest surfaces, so each level below the roots can leave at most one batch behind. Roots
+//! that wait are counted, not stored, so `n` has no part in it. `docs/proofs/stack.md` has the proof.
 
 use crate::abi::{
     Colour, Control, Draw, Frame, Limits, MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface,
@@ -27,10 +27,14 @@ const DRAW_TARGET: u32 = 1 << 16;
 
 /// Exact maximum of the stack for `n` roots, batches of `p` and `k` levels; all at least 1.
 ///
-/// While a batch is not yet full everything can double; from then on each level adds at most `p`.
+/// No more than `p` roots are taken at once. While a batch is not yet full everything can double; from then on
+/// each level adds at most `p`.
 #[must_use]
 pub const fn stack_exact(n: u64, p: u64, k: u64) -> u64 {
-    let (mut most, mut levels_left) = (n, k.saturating_sub(1));
+    if k < 2 {
+        return 0; // nothing is ever split
+    }
+    let (mut most, mut levels_left) = (if n < p { n } else { p }, k - 1);
     while levels_left > 0 && most < p {
         most *= 2;
         levels_left -= 1;
@@ -38,24 +42,24 @@ pub const fn stack_exact(n: u64, p: u64, k: u64) -> u64 {
     most.saturating_add(p.saturating_mul(levels_left))
 }
 
-/// Closed form that is never below [`stack_exact`], and equal to it for `n` ≥ `p`.
+/// Closed form that is never below [`stack_exact`], and equal to it for `n` ≥ `p` and `k` ≥ 2.
 #[must_use]
-pub const fn stack_bound(n: u64, p: u64, k: u64) -> u64 {
-    let first = if n > p { n } else { p };
-    first.saturating_add(p.saturating_mul(k.saturating_sub(1)))
+pub const fn stack_bound(p: u64, k: u64) -> u64 {
+    p.saturating_mul(k)
 }
 
-/// Smallest stack with which any scheduler can finish: one surface at a time, depth first.
+/// Smallest stack with which any scheduler can finish, however many roots there are: one surface at a time, depth
+/// first.
 #[must_use]
-pub const fn stack_min(n: u64, k: u64) -> u64 {
-    n + k.saturating_sub(1)
+pub const fn stack_min(k: u64) -> u64 {
+    k
 }
 
 /// Entries of the stack for ADAPTIVE: the capacity that was asked for, or, for 0, a few batches beyond the
 /// smallest, which is hardly ever slower than the exact maximum; never more than that.
 #[must_use]
 pub const fn stack_adaptive(n: u64, p: u64, k: u64, capacity: u64) -> u64 {
-    let wanted = if capacity > 0 { capacity } else { stack_min(n, k) + ADAPTIVE_BATCHES * p };
+    let wanted = if capacity > 0 { capacity } else { stack_min(k) + ADAPTIVE_BATCHES * p };
     let most = stack_exact(n, p, k);
     if wanted < most { wanted } else { most }
 }
@@ -109,7 +113,7 @@ impl Sizes {
         if self.stack_entries() > MAX_STACK {
             return Err(invalid("surface stack", self.stack_entries(), 1, MAX_STACK));
         }
-        let least = stack_min(self.patches as u64, self.levels as u64);
+        let least = stack_min(self.levels as u64);
         if self.capacity != 0 && (self.capacity as u64) < least {
             return Err(invalid("stack capacity", self.capacity as u64, least, MAX_STACK));
         }
@@ -121,16 +125,17 @@ impl Sizes {
         }
     }
 
-    /// Surfaces that the stack must hold.
+    /// Surfaces that the stack must hold; at least one, so that there is a buffer.
     #[must_use]
     pub const fn stack_entries(&self) -> u64 {
         let (n, p, k) = (self.patches as u64, self.batch as u64, self.levels as u64);
-        match self.scheduler {
+        let entries = match self.scheduler {
             Scheduler::Stack => stack_exact(n, 1, k),
             Scheduler::Bounded => stack_exact(n, p, k),
             Scheduler::Adaptive => stack_adaptive(n, p, k, self.capacity as u64),
             Scheduler::Breadth => 2 * n,
-        }
+        };
+        if entries > 1 { entries } else { 1 }
     }
 
     /// Proven maximum of the stack; BREADTH has none.
@@ -284,5 +289,6 @@ const fn invalid(option: &'static str, value: u64, least: u64, most: u64) -> Pla
     PlanError::Invalid { option, value, least, most }
 }
 
-// The published configuration of Weber 2014: 1024 roots, batches of 256, 25 levels in 7168 entries.
-const _: () = assert!(stack_exact(1024, 256, 25) <= 7168);
+// The published configuration of Weber 2014: 1024 roots, batches of 256, 25 levels in 7168 entries; without the
+// roots that wait it takes 6400.
+const _: () = assert!(stack_exact(1024, 256, 25) == 6400);

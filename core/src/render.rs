@@ -24,8 +24,8 @@ pub struct Counts {
     pub micropolygons: u64,
     /// Largest number of surfaces that lay on the stack.
     pub max_stack: u64,
-    /// Roots that may not have been touched yet: a measure of progress.
-    pub roots_left: u64,
+    /// Roots that have been taken: a measure of progress.
+    pub roots_taken: u64,
     /// Batches that were taken, empty ones included.
     pub batches: u64,
 }
@@ -38,7 +38,7 @@ impl Counts {
         self.depth_limited += u64::from(control.limited);
         self.micropolygons = self.drawn * u64::from(rate) * u64::from(rate);
         self.max_stack = u64::from(control.peak);
-        self.roots_left = u64::from(control.low);
+        self.roots_taken = u64::from(control.next_root);
     }
 }
 
@@ -166,6 +166,7 @@ impl FramePlan {
         buffers: &mut Buffers<D::Buffer>,
         progress: impl FnMut(&Counts),
     ) -> Result<Counts, D::Error> {
+        device.write(&buffers.control, &[Control::default()])?;
         match self.sizes.scheduler {
             Scheduler::Breadth => self.run_by_level(device, buffers, progress),
             _ => self.run_by_batch(device, buffers, progress),
@@ -179,10 +180,9 @@ impl FramePlan {
         mut progress: impl FnMut(&Counts),
     ) -> Result<Counts, D::Error> {
         let mut counts = Counts::default();
-        let mut schedule = Bounded::new(self.sizes.batches_a_draw());
+        let mut schedule = Bounded::new(self.sizes.patches, self.sizes.batches_a_draw());
         loop {
             match schedule.step() {
-                Step::Seed => self.seed(device, buffers)?,
                 Step::Batch => {
                     run_batch(device, buffers)?;
                     counts.batches += 1;
@@ -208,28 +208,29 @@ impl FramePlan {
     ) -> Result<Counts, D::Error> {
         let mut counts = Counts::default();
         let mut limits = self.limits();
-        self.seed(device, buffers)?;
         loop {
             let control = ask(device, buffers)?;
             counts.add(&control, self.frame.rate);
             progress(&counts);
-            if control.stack == 0 {
+            let count = control.stack + self.sizes.patches - control.next_root;
+            if count == 0 {
                 return Ok(counts);
             }
-            self.make_room(device, buffers, &mut limits, control.stack)?;
+            self.make_room(device, buffers, &mut limits, count, control.stack)?;
             run_batch(device, buffers)?;
             counts.batches += 1;
             self.draw(device, buffers)?;
         }
     }
 
-    /// Lets a level of `count` surfaces be one batch: twice as many may come of it.
+    /// Lets a level of `count` surfaces, `held` of them on the stack, be one batch: twice as many may come of it.
     fn make_room<D: Device>(
         &self,
         device: &mut D,
         b: &mut Buffers<D::Buffer>,
         limits: &mut Limits,
         count: u32,
+        held: u32,
     ) -> Result<(), D::Error> {
         let room = 2 * u64::from(count);
         if room > MAX_STACK {
@@ -246,17 +247,12 @@ impl FramePlan {
         }
         if room > u64::from(limits.stack_room) {
             let larger = device.allocate("stack", Surface::LAYOUT, room)?;
-            device.copy(&b.stack, &larger, u64::from(count))?;
+            device.copy(&b.stack, &larger, u64::from(held))?;
             b.stack = larger;
             limits.stack_room = room as u32;
         }
         // A level is all there is, so its children are safe without any more room.
         device.write(&b.limits, &[Limits { levels: 1, ..*limits }])
-    }
-
-    fn seed<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
-        let all = [&b.limits, &b.stack, &b.control];
-        device.dispatch(Stage::Seed, Items::Count(self.sizes.patches), &all)
     }
 
     fn draw<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {

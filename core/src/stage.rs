@@ -56,8 +56,6 @@ pub enum Items {
 /// The stages of a frame, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// One root surface a patch: [`crate::kernel::seed`].
-    Seed,
     /// The next batch: [`crate::kernel::take`].
     Take,
     /// Cull, draw or split: [`crate::kernel::bound`].
@@ -77,22 +75,13 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 8] = [
-        Self::Seed,
-        Self::Take,
-        Self::Bound,
-        Self::Scan,
-        Self::Split,
-        Self::Draw,
-        Self::Flush,
-        Self::KnownAnswers,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Take, Self::Bound, Self::Scan, Self::Split, Self::Draw, Self::Flush, Self::KnownAnswers];
 
     /// Its name: that of its file on every device.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Seed => "seed",
             Self::Take => "take",
             Self::Bound => "bound",
             Self::Scan => "scan",
@@ -107,9 +96,6 @@ impl Stage {
     #[must_use]
     pub const fn bindings(self) -> &'static [Binding] {
         match self {
-            Self::Seed => {
-                const { &[read::<Limits>("limits"), write::<Surface>("stack"), write::<Control>("control")] }
-            }
             Self::Take => {
                 const { &[read::<Limits>("limits"), read::<Surface>("stack"), write::<Control>("control")] }
             }

@@ -32,7 +32,7 @@ impl Progress {
         if self.style == ProgressStyle::None || self.start.elapsed() < PATIENCE {
             return;
         }
-        let begun = self.patches.saturating_sub(counts.roots_left);
+        let begun = counts.roots_taken;
         if self.style == ProgressStyle::Auto && std::io::stderr().is_terminal() {
             let bar = self.bar.get_or_insert_with(|| bar(self.patches));
             bar.set_position(begun);

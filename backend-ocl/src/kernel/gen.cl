@@ -93,11 +93,12 @@ typedef struct {
 typedef struct {
     uint stack;
     uint taken;
+    uint roots;
     uint base;
+    uint next_root;
     uint waiting;
     uint fresh;
     uint peak;
-    uint low;
     uint processed;
     uint culled;
     uint drawn;

@@ -10,10 +10,6 @@ static Counts counted(uint code) {
     return (Counts)(code != CULL && !drawn ? 1u : 0u, drawn ? 1u : 0u, limited ? 1u : 0u, 0u);
 }
 
-static uint saturating_sub(uint a, uint b) {
-    return a > b ? a - b : 0u;
-}
-
 static Control commit(Control control, Counts all, uint stack_room, uint draw_room) {
     const uint splits = all.x, draws = all.y, limited = all.z;
     const uint stack = control.base + 2u * splits;

@@ -1,44 +1,73 @@
 // Mirrors core/src/kernel/take.rs and core/src/schedule/adaptive.rs: the next batch is the top of the stack, as
-// much of it as is safe.
+// much of it as is safe, and then roots.
 
-static Control take(Control control, uint base) {
-    control.taken = control.stack - base;
+static Control take(Control control, uint base, uint roots) {
+    control.taken = roots + control.stack - base;
+    control.roots = roots;
     control.base = base;
-    control.low = base < control.low ? base : control.low;
+    control.next_root += roots;
     control.waiting += control.fresh;
     control.fresh = 0u;
     return control;
 }
 
+// Surface number `item` of the batch: roots first, the first patch last, as if they had lain on the stack.
+static Surface member(__global const Control *control, __global const Surface *stack, uint item) {
+    if (item < control->roots) {
+        return root(control->next_root - 1u - item);
+    }
+    return stack[control->base + item - control->roots];
+}
+
 static bool is_safe(__global const Limits *limits, uint count, uint taken) {
-    return taken + limits->levels <= limits->stack_room - count + 2u;
+    return saturating_sub(taken + limits->levels, 2u) <= saturating_sub(limits->stack_room, count);
+}
+
+static bool is_never_split(__global const Limits *limits, uint entry_level) {
+    return entry_level + 1u >= limits->levels;
 }
 
 static uint lowest(__global const Limits *limits, uint entry, uint entry_level) {
-    if (entry_level + 1u >= limits->levels) {
+    if (is_never_split(limits, entry_level)) {
         return 0u;
     }
-    const uint needed = entry + limits->levels - entry_level;
-    const uint left = limits->stack_room > needed ? limits->stack_room - needed : 0u;
-    return entry > left ? entry - left : 0u;
+    const uint left = saturating_sub(saturating_sub(limits->stack_room, entry), limits->levels - entry_level);
+    return saturating_sub(entry, left);
+}
+
+static uint roots_below(__global const Limits *limits, uint entry, uint entry_level) {
+    if (is_never_split(limits, entry_level)) {
+        return UINT_MAX;
+    }
+    return saturating_sub(saturating_sub(limits->stack_room, limits->levels - entry_level) / 2u, entry);
+}
+
+static uint roots_above_none(__global const Limits *limits) {
+    const uint below = roots_below(limits, 0u, 0u);
+    return below == UINT_MAX ? below : below + 1u;
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void stage_take(__global const Limits *limits, __global const Surface *stack, __global Control *control) {
-    __local uint base;
+    __local uint base, roots;
     const uint lane = get_local_id(0), count = control->stack;
-    const uint first = count > limits->batch ? count - limits->batch : 0u;
+    const uint first = saturating_sub(count, limits->batch);
+    const uint wanted = lesser_of(limits->patches - control->next_root, saturating_sub(limits->batch, count));
+    const bool safe = is_safe(limits, count + wanted, count - first + wanted);
     if (lane == 0u) {
         base = first;
+        roots = safe ? wanted : lesser_of(wanted, roots_above_none(limits));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    if (!is_safe(limits, count, count - first)) {
+    if (!safe) {
         for (uint entry = first + lane; entry < count; entry += GROUP) {
-            atomic_max(&base, lowest(limits, entry, level(stack[entry])));
+            const uint entry_level = level(stack[entry]);
+            atomic_max(&base, lowest(limits, entry, entry_level));
+            atomic_min(&roots, roots_below(limits, entry, entry_level));
         }
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
-        *control = take(*control, base);
+        *control = take(*control, base, base > 0u ? 0u : roots);
     }
 }

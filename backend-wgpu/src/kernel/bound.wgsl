@@ -16,9 +16,17 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if item >= control.taken {
         return;
     }
-    let surface = stack[control.base + item];
+    let surface = member(item);
     batch[item] = surface;
     verdicts[item] = bound_any(surface);
+}
+
+// Mirrors core/src/kernel/take.rs (member): roots first, the first patch last, as if they had lain on the stack.
+fn member(item: u32) -> Surface {
+    if item < control.roots {
+        return Surface(control.next_root - 1u - item, 0u, 0u, 0u);
+    }
+    return stack[control.base + item - control.roots];
 }
 
 // Control hull of a surface; what rounding can do; how far the surface can be from the one whose hull it is.

@@ -93,11 +93,12 @@ struct Slot {
 struct Control {
     stack: u32,
     taken: u32,
+    roots: u32,
     base: u32,
+    next_root: u32,
     waiting: u32,
     fresh: u32,
     peak: u32,
-    low: u32,
     processed: u32,
     culled: u32,
     drawn: u32,

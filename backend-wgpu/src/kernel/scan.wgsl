@@ -36,10 +36,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     }
 }
 
-fn umin(a: u32, b: u32) -> u32 {
-    return select(b, a, a < b);
-}
-
 fn outputs(code: u32) -> vec3<u32> {
     switch code {
         case CULL: {
@@ -63,10 +59,6 @@ fn counts_before(lane: u32) -> vec3<u32> {
         sum += totals[run];
     }
     return sum;
-}
-
-fn saturating_sub(a: u32, b: u32) -> u32 {
-    return select(0u, a - b, a > b);
 }
 
 // The counts after a batch with these totals of surfaces split, drawn and limited.

@@ -12,7 +12,6 @@ pub mod quads;
 pub mod sample;
 pub mod scan;
 pub mod seam;
-pub mod seed;
 pub mod shade;
 pub mod split;
 pub mod take;

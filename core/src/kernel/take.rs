@@ -1,18 +1,37 @@
-//! take: the next batch is the top of the stack (Weber 2014, Alg. 4.1), as much of it as is safe.
+//! take: the next batch is the top of the stack (Weber 2014, Alg. 4.1), as much of it as is safe, and then roots.
 
 use crate::abi::{Control, Limits, Surface};
-use crate::schedule::adaptive::base;
+use crate::schedule::adaptive::{Batch, next};
 
 /// Takes the largest safe batch of up to `limits.batch` surfaces (see [`crate::schedule::adaptive`]). The draws
 /// of the last batch now wait to be diced.
 #[inline(always)]
 #[must_use]
 pub fn take(control: Control, limits: &Limits, stack: &[Surface]) -> Control {
-    let Limits { batch, levels, stack_room, .. } = *limits;
-    let base = base(control.stack, batch, levels, stack_room, |entry| stack[entry as usize].level());
-    let low = if base < control.low { base } else { control.low };
-    let taken = control.stack - base;
-    Control { taken, base, low, waiting: control.waiting + control.fresh, fresh: 0, ..control }
+    let Limits { patches, batch, levels, stack_room, .. } = *limits;
+    let waiting = patches - control.next_root;
+    let level_of = |entry: u32| stack[entry as usize].level();
+    let Batch { base, roots } = next(control.stack, waiting, batch, levels, stack_room, level_of);
+    Control {
+        taken: roots + control.stack - base,
+        roots,
+        base,
+        next_root: control.next_root + roots,
+        waiting: control.waiting + control.fresh,
+        fresh: 0,
+        ..control
+    }
+}
+
+/// Surface number `item` of the batch: roots first, the first patch last, as if they had lain on the stack.
+#[inline(always)]
+#[must_use]
+pub fn member(control: &Control, stack: &[Surface], item: u32) -> Surface {
+    if item < control.roots {
+        Surface::root(control.next_root - 1 - item)
+    } else {
+        stack[(control.base + item - control.roots) as usize]
+    }
 }
 
 /// Forgets the draws that have been diced.

@@ -8,8 +8,6 @@ use crate::abi::Control;
 /// What the plan has to do next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Put the roots on the stack.
-    Seed,
     /// Take, bound, scan and split one batch.
     Batch,
     /// Dice, shade and sample what waits in the draw buffer, and empty it.
@@ -24,6 +22,7 @@ pub enum Step {
 #[derive(Clone, Copy, Debug)]
 pub struct Bounded {
     next: Step,
+    patches: u32,
     batches_a_draw: u32,
     batches: u32,
 }
@@ -31,15 +30,14 @@ pub struct Bounded {
 impl Bounded {
     /// Starts a frame; the draw buffer must have room for `batches_a_draw` whole batches.
     #[must_use]
-    pub const fn new(batches_a_draw: u32) -> Self {
-        Self { next: Step::Seed, batches_a_draw, batches: 0 }
+    pub const fn new(patches: u32, batches_a_draw: u32) -> Self {
+        Self { next: Step::Batch, patches, batches_a_draw, batches: 0 }
     }
 
     /// The step to take now.
     pub const fn step(&mut self) -> Step {
         let now = self.next;
         self.next = match now {
-            Step::Seed => Step::Batch,
             Step::Batch => {
                 self.batches += 1;
                 if self.batches < self.batches_a_draw { Step::Batch } else { Step::Draw }
@@ -56,7 +54,7 @@ impl Bounded {
 
     /// Takes note of the counts.
     pub const fn answer(&mut self, control: &Control) {
-        if control.stack == 0 {
+        if control.stack == 0 && control.next_root == self.patches {
             self.next = Step::Done;
         }
     }

@@ -13,7 +13,7 @@ use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::kernel::dice::{Grid, dice};
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::split::{Outcome, split};
-use micropoly_core::kernel::{bound::bound, scan::scan, seed, shade::shade, take};
+use micropoly_core::kernel::{bound::bound, scan::scan, shade::shade, take};
 use micropoly_core::memory::stack_exact;
 use micropoly_core::patch::Net;
 
@@ -75,12 +75,11 @@ fn covered_samples(scene: &Scene) -> usize {
     let (width, height) = (scene.frame.width, scene.frame.height);
     let mut band = Band { width, height, first_row: 0, samples: &mut samples, colours: &mut colours };
     let mut queues = Queues {
-        control: seed::start(1),
+        control: Control::default(),
         stack: [Surface::default(); STACK],
         draws: [Draw::default(); BATCH],
     };
-    queues.stack[0] = seed::seed(0, 1);
-    while queues.control.stack > 0 {
+    while queues.control.next_root < 1 || queues.control.stack > 0 {
         split_batch(scene, &mut queues);
         if queues.control.overflow > 0 {
             return 0;
@@ -95,12 +94,15 @@ fn covered_samples(scene: &Scene) -> usize {
 fn split_batch(scene: &Scene, queues: &mut Queues) {
     let Scene { frame, object, patch } = scene;
     let Queues { control, stack, draws } = queues;
-    let limits = Limits { batch: BATCH as u32, stack_room: stack.len() as u32, levels: frame.levels, ..Limits::default() };
+    let (batch, stack_room, levels) = (BATCH as u32, stack.len() as u32, frame.levels);
+    let limits = Limits { patches: 1, batch, stack_room, levels, ..Limits::default() };
     *control = take::take(*control, &limits, stack);
     let taken = control.taken as usize;
     let (mut batch, mut verdicts) = ([Surface::default(); BATCH], [Verdict::default(); BATCH]);
     let mut slots = [Slot::default(); BATCH];
-    batch[..taken].copy_from_slice(&stack[control.base as usize..][..taken]);
+    for (item, surface) in (0..).zip(&mut batch[..taken]) {
+        *surface = take::member(control, stack, item);
+    }
     for (surface, verdict) in batch[..taken].iter().zip(&mut verdicts) {
         *verdict = bound(frame, patch, object, *surface);
     }
