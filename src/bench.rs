@@ -79,7 +79,7 @@ impl Plan {
         self.schedulers.iter().flat_map(|&scheduler| {
             let batches: &[u32] = match scheduler {
                 Scheduler::Stack | Scheduler::Breadth => &[1],
-                Scheduler::Bounded | Scheduler::Adaptive => &self.batches,
+                Scheduler::Bounded | Scheduler::Local | Scheduler::Adaptive => &self.batches,
             };
             batches.iter().map(move |&batch| (scheduler, batch))
         })
@@ -131,7 +131,7 @@ fn measure<D: Device>(
         memory = device.bytes_allocated() - before - plan.sizes().fixed_bytes();
     }
     let counts = counts.unwrap_or_default();
-    let has_batch = matches!(options.scheduler, Scheduler::Bounded | Scheduler::Adaptive);
+    let has_batch = !matches!(options.scheduler, Scheduler::Stack | Scheduler::Breadth);
     Ok(Row {
         scene: scene.name.clone(),
         backend: entry.backend.name(),

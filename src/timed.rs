@@ -76,7 +76,7 @@ impl<D: Device> Device for Timed<D> {
         let start = Instant::now();
         let outcome = self.device.dispatch(stage, items, buffers);
         let seconds = match stage {
-            Stage::Bound => &mut self.seconds.bound,
+            Stage::Bound | Stage::Local => &mut self.seconds.bound,
             Stage::Draw => &mut self.seconds.draw,
             _ => &mut self.seconds.split,
         };

@@ -10,7 +10,7 @@ use micropoly_core::error::PlanError;
 use micropoly_core::stage::{Items, Stage};
 
 use crate::buffer::CpuBuffer;
-use crate::stages;
+use crate::{local, stages};
 
 /// What can go wrong on the CPU.
 #[derive(Debug)]
@@ -143,6 +143,9 @@ impl Device for CpuDevice {
             (Stage::Bound, Items::Taken) => stages::bound(&self.pool, buffers),
             (Stage::Scan, Items::Taken) => stages::scan(buffers),
             (Stage::Split, Items::Taken) => stages::split(buffers),
+            (Stage::Local, Items::Groups(count)) => local::local(&self.pool, buffers, count),
+            (Stage::Balance, _) => local::balance(buffers),
+            (Stage::Deal, Items::Groups(count)) => local::deal(buffers, count),
             (Stage::Draw, Items::Image { .. }) => stages::draw(&self.pool, threads, buffers),
             (Stage::Flush, _) => stages::flush(buffers),
             (Stage::KnownAnswers, Items::Count(count)) => stages::known_answers(buffers, count),

@@ -3,6 +3,7 @@
 
 mod buffer;
 mod device;
+mod local;
 mod stages;
 
 pub use buffer::CpuBuffer;

@@ -26,7 +26,7 @@ const BOUND_CHUNK: usize = 256;
 /// Bands of rows a thread: enough to share the work evenly, few enough that little is diced twice.
 const BANDS_A_THREAD: usize = 4;
 
-type Buffers<'a, 'b> = &'a [&'b CpuBuffer];
+pub(crate) type Buffers<'a, 'b> = &'a [&'b CpuBuffer];
 
 pub(crate) fn take(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
     let limits = buffers[0].view::<Limits>()?[0];

@@ -2,6 +2,8 @@
 //! at and behind the eye, control points far away, ranges that may not be split again, equal depths, full
 //! buffers, every dice rate).
 
+mod groups;
+
 use std::ops::RangeInclusive;
 
 use bytemuck::NoUninit;
@@ -44,6 +46,9 @@ pub fn input(stage: Stage, round: u64) -> Input {
         Stage::Bound => bounds(&mut random),
         Stage::Scan => scans(&mut random),
         Stage::Split => splits(&mut random),
+        Stage::Local => groups::local(&mut random),
+        Stage::Balance => groups::balance(&mut random),
+        Stage::Deal => groups::deal(&mut random),
         Stage::Draw => draws(&mut random, round),
         Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
         Stage::KnownAnswers => known(&mut random),
@@ -61,6 +66,9 @@ const fn number(stage: Stage) -> u64 {
         Stage::Draw => 5,
         Stage::Flush => 6,
         Stage::KnownAnswers => 7,
+        Stage::Local => 8,
+        Stage::Balance => 9,
+        Stage::Deal => 10,
     }
 }
 

@@ -32,9 +32,10 @@ const FOUND: &str = "\nfound: ";
 /// No mutant is ever seen again.
 const NO_CACHES: [(&str, &str); 2] = [("POCL_KERNEL_CACHE", "0"), ("MESA_SHADER_CACHE_DISABLE", "true")];
 /// Stages that are opened together, those first that are compiled and run soonest.
-const QUICK_TO_SLOW: [&[Stage]; 3] = [
-    &[Stage::Take, Stage::Flush, Stage::Scan, Stage::Split, Stage::KnownAnswers],
+const QUICK_TO_SLOW: [&[Stage]; 4] = [
+    &[Stage::Take, Stage::Flush, Stage::Scan, Stage::Split, Stage::Balance, Stage::Deal, Stage::KnownAnswers],
     &[Stage::Bound],
+    &[Stage::Local],
     &[Stage::Draw],
 ];
 

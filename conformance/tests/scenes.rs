@@ -75,12 +75,15 @@ fn all_backends_give_the_bits_of_the_snapshot() {
 
 /// Schedulers with batches and capacities: as ADAPTIVE asks, as small as it can be, and a little larger.
 fn schedules(case: &Case) -> Vec<(Scheduler, u32, u32)> {
-    let least = stack_min(case.patches.len() as u64, u64::from(case.frame.levels)) as u32;
+    let least = stack_min(u64::from(case.frame.levels)) as u32;
     vec![
         (Scheduler::Stack, 1, 0),
         (Scheduler::Breadth, 1, 0),
         (Scheduler::Bounded, 100, 0),
         (Scheduler::Bounded, 5000, 0),
+        (Scheduler::Local, 64, least),
+        (Scheduler::Local, 1000, 16 * least + 50),
+        (Scheduler::Local, 5000, 0),
         (Scheduler::Adaptive, 100, 0),
         (Scheduler::Adaptive, 5000, least),
         (Scheduler::Adaptive, 64, least + 70),

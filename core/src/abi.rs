@@ -89,6 +89,15 @@ shared_constants! {
     /// Smallest squared length of a vector that is normalised for shading.
     const SHADE_TINY: f32 = 1.0e-30;
 
+    /// Surfaces that a group of LOCAL bounds at once.
+    const LOCAL_BATCH: u32 = 64;
+    /// Batches that a group of LOCAL takes at most before surfaces are dealt out anew.
+    const LOCAL_BATCHES: u32 = 8;
+    /// Most surfaces that a group of LOCAL can draw meanwhile.
+    const LOCAL_DRAWS: u32 = LOCAL_BATCH * LOCAL_BATCHES;
+    /// Largest stack of a group of LOCAL: it lies in local memory, 8 KiB of it.
+    const LOCAL_STACK: u32 = 512;
+
     /// Verdict of `bound`: not visible.
     const CULL: u32 = 0;
     /// Verdict of `bound`: small enough, to be diced.
@@ -374,6 +383,36 @@ shared_structs! {
         overflow: u32,
     }
 
+    /// A group of LOCAL, which works on a stack of its own.
+    struct Group {
+        /// Surfaces on its stack when a round begins.
+        stack: u32,
+        /// So many of them, the lowest, are roots.
+        roots: u32,
+        /// Patch after that of its lowest root; the others follow downwards.
+        next_root: u32,
+        /// Batches that it may take in the round.
+        batches: u32,
+        /// Entries of its stack.
+        room: u32,
+        /// Surfaces left on its stack after the round.
+        held: u32,
+        /// Surfaces drawn in the round.
+        draws: u32,
+        /// Draws of the groups before it.
+        first_draw: u32,
+        /// Surfaces bounded in the round.
+        processed: u32,
+        /// Surfaces culled in the round.
+        culled: u32,
+        /// Drawn surfaces that would have been split at a deeper level, in the round.
+        limited: u32,
+        /// Largest number of surfaces that lay on its stack in the round.
+        peak: u32,
+        /// Surfaces bounded since the frame began.
+        load: u32,
+    }
+
     /// One operation of the exact arithmetic and its operands, as bits.
     struct Question {
         /// Index into [`crate::kernel::known_answers::OPERATIONS`].
@@ -392,12 +431,14 @@ shared_structs! {
         patches: u32,
         /// Surfaces a batch.
         batch: u32,
-        /// Entries of the stack.
+        /// Entries of the stack; of LOCAL, of the stack of one group.
         stack_room: u32,
         /// Entries of the draw buffer.
         draw_room: u32,
         /// Number of levels: [`Frame::levels`].
         levels: u32,
+        /// Number of groups; of LOCAL only.
+        groups: u32,
     }
 
     /// The nearest micropolygon at one sample of the image. All zero: nothing there.

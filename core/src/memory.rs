@@ -6,8 +6,8 @@
 //! that wait are counted, not stored, so `n` has no part in it. `docs/proofs/stack.md` has the proof.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Limits, MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface,
-    Verdict,
+    Colour, Control, Draw, Frame, Group, LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Limits, MAX_LEVELS,
+    MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface, Verdict,
 };
 use crate::error::PlanError;
 use crate::schedule::Scheduler;
@@ -64,6 +64,16 @@ pub const fn stack_adaptive(n: u64, p: u64, k: u64, capacity: u64) -> u64 {
     if wanted < most { wanted } else { most }
 }
 
+/// Entries of the stack of one of LOCAL's groups: its share of the capacity that was asked for, or, for 0, a few
+/// batches beyond the smallest; never more than local memory has room for.
+#[must_use]
+pub const fn stack_local(groups: u64, k: u64, capacity: u64) -> u64 {
+    let most = LOCAL_STACK as u64;
+    let wanted =
+        if capacity > 0 { capacity / groups } else { stack_min(k) + ADAPTIVE_BATCHES * LOCAL_BATCH as u64 };
+    if wanted < most { wanted } else { most }
+}
+
 /// Sizes of all buffers of one frame, in entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
@@ -77,7 +87,8 @@ pub struct Sizes {
     pub batch: u32,
     /// How the stack is worked off.
     pub scheduler: Scheduler,
-    /// Entries of the stack; 0 = what the scheduler asks for. Only ADAPTIVE can have less than that.
+    /// Entries of the stack, or of all groups' stacks; 0 = what the scheduler asks for. Only ADAPTIVE and LOCAL can
+    /// have less than that.
     pub capacity: u32,
     /// Levels `k`.
     pub levels: u32,
@@ -133,9 +144,60 @@ impl Sizes {
             Scheduler::Stack => stack_exact(n, 1, k),
             Scheduler::Bounded => stack_exact(n, p, k),
             Scheduler::Adaptive => stack_adaptive(n, p, k, self.capacity as u64),
+            Scheduler::Local => self.groups() as u64 * self.group_stack(),
             Scheduler::Breadth => 2 * n,
         };
         if entries > 1 { entries } else { 1 }
+    }
+
+    /// Groups of LOCAL: enough for a batch, but no more than the capacity has a stack for.
+    #[must_use]
+    pub const fn groups(&self) -> u32 {
+        let wanted = self.batch.div_ceil(LOCAL_BATCH);
+        let most = self.capacity / stack_min(self.levels as u64) as u32;
+        if self.capacity == 0 || wanted < most { wanted } else { most }
+    }
+
+    /// Entries of the stack of one of LOCAL's groups.
+    #[must_use]
+    pub const fn group_stack(&self) -> u64 {
+        stack_local(self.groups() as u64, self.levels as u64, self.capacity as u64)
+    }
+
+    const fn if_local(&self, entries: u64, otherwise: u64) -> u64 {
+        match self.scheduler {
+            Scheduler::Local => entries,
+            _ => otherwise,
+        }
+    }
+
+    /// Surfaces that the buffers of a batch must hold; LOCAL has none.
+    #[must_use]
+    pub const fn batch_entries(&self) -> u64 {
+        self.if_local(1, self.batch as u64)
+    }
+
+    /// Entries of the buffer of LOCAL's groups.
+    #[must_use]
+    pub const fn group_entries(&self) -> u64 {
+        self.if_local(self.groups() as u64, 1)
+    }
+
+    /// Surfaces that can be dealt to LOCAL's groups: as many as their stacks hold.
+    #[must_use]
+    pub const fn dealt_entries(&self) -> u64 {
+        self.if_local(self.stack_entries(), 1)
+    }
+
+    /// Surfaces that LOCAL's groups can draw in a round.
+    #[must_use]
+    pub const fn fresh_entries(&self) -> u64 {
+        self.if_local(self.groups() as u64 * LOCAL_DRAWS as u64, 1)
+    }
+
+    /// Surfaces that can be drawn before the host can look: in a batch, or in a round of LOCAL's groups.
+    const fn draws_at_once(&self) -> u64 {
+        self.if_local(self.fresh_entries(), self.batch as u64)
     }
 
     /// Proven maximum of the stack; BREADTH has none.
@@ -150,20 +212,20 @@ impl Sizes {
     /// Batches after which the draw buffer may be full.
     #[must_use]
     pub const fn batches_a_draw(&self) -> u32 {
-        let fitting = DRAW_TARGET / self.batch;
+        let fitting = DRAW_TARGET as u64 / self.draws_at_once();
         if fitting < 1 {
             1
-        } else if fitting > DRAW_BATCHES {
+        } else if fitting > DRAW_BATCHES as u64 {
             DRAW_BATCHES
         } else {
-            fitting
+            fitting as u32
         }
     }
 
     /// Surfaces that the draw buffer must hold.
     #[must_use]
     pub const fn draw_entries(&self) -> u64 {
-        self.batch as u64 * self.batches_a_draw() as u64
+        self.draws_at_once() * self.batches_a_draw() as u64
     }
 
     /// Samples of the image.
@@ -186,9 +248,10 @@ impl Sizes {
     pub const fn bytes(&self) -> u64 {
         let batch_entry = size_of::<Surface>() + size_of::<Verdict>() + size_of::<Slot>();
         self.fixed_bytes()
-            + self.stack_entries() * size_of::<Surface>() as u64
-            + self.batch as u64 * batch_entry as u64
-            + self.draw_entries() * size_of::<Draw>() as u64
+            + (self.stack_entries() + self.dealt_entries()) * size_of::<Surface>() as u64
+            + self.batch_entries() * batch_entry as u64
+            + self.group_entries() * size_of::<Group>() as u64
+            + (self.draw_entries() + self.fresh_entries()) * size_of::<Draw>() as u64
     }
 
     /// Entries of the buffer of patches.
@@ -209,7 +272,8 @@ impl Sizes {
             ("colours", self.pixels() * size_of::<Colour>() as u64),
             ("stack", self.stack_entries() * size_of::<Surface>() as u64),
             ("draws", self.draw_entries() * size_of::<Draw>() as u64),
-            ("batch", self.batch as u64 * size_of::<Surface>() as u64),
+            ("batch", self.batch_entries() * size_of::<Surface>() as u64),
+            ("fresh", self.fresh_entries() * size_of::<Draw>() as u64),
         ];
         let (mut largest, mut index) = (all[0], 1);
         while index < all.len() {

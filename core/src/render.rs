@@ -1,7 +1,8 @@
 //! One frame as a plan: buffers, uploads and the order of stages, on any device.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Layout, Limits, Object, Patch, Sample, Shared, Slot, Surface, Verdict,
+    Colour, Control, Draw, Frame, Group, Layout, Limits, Object, Patch, Sample, Shared, Slot, Surface,
+    Verdict,
 };
 use crate::backend::Device;
 use crate::error::PlanError;
@@ -26,8 +27,33 @@ pub struct Counts {
     pub max_stack: u64,
     /// Roots that have been taken: a measure of progress.
     pub roots_taken: u64,
-    /// Batches that were taken, empty ones included.
+    /// Batches that were taken, empty ones included; of LOCAL, rounds.
     pub batches: u64,
+    /// How LOCAL's groups shared the work.
+    pub load: Option<Load>,
+}
+
+/// Surfaces bounded by each of LOCAL's groups.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Load {
+    /// Number of groups.
+    pub groups: u32,
+    /// Of the group that bounded fewest.
+    pub least: u32,
+    /// Of the group that bounded most.
+    pub most: u32,
+    /// Of all groups.
+    pub total: u64,
+}
+
+impl Load {
+    /// How far, as a share of the mean, the load of any group is from it.
+    #[must_use]
+    pub fn imbalance(&self) -> f64 {
+        let mean = self.total as f64 / f64::from(self.groups);
+        let apart = f64::from(self.most) - mean;
+        if self.total == 0 { 0.0 } else { apart.max(mean - f64::from(self.least)) / mean }
+    }
 }
 
 impl Counts {
@@ -55,6 +81,9 @@ pub struct Buffers<B> {
     verdicts: B,
     slots: B,
     draws: B,
+    groups: B,
+    dealt: B,
+    fresh: B,
     /// The nearest micropolygon at each sample, row after row from the top.
     pub samples: B,
     /// Its colour.
@@ -123,7 +152,7 @@ impl FramePlan {
         let sizes = &self.sizes;
         let limits = self.limits();
         let mut reserve = |name, layout: Layout, entries: u64| device.allocate(name, layout, entries);
-        let batch = u64::from(sizes.batch);
+        let batch = sizes.batch_entries();
         let buffers = Buffers {
             frame: reserve("frame", Frame::LAYOUT, 1)?,
             objects: reserve("objects", Object::LAYOUT, u64::from(sizes.objects))?,
@@ -135,6 +164,9 @@ impl FramePlan {
             verdicts: reserve("verdicts", Verdict::LAYOUT, batch)?,
             slots: reserve("slots", Slot::LAYOUT, batch)?,
             draws: reserve("draws", Draw::LAYOUT, sizes.draw_entries())?,
+            groups: reserve("groups", Group::LAYOUT, sizes.group_entries())?,
+            dealt: reserve("dealt", Surface::LAYOUT, sizes.dealt_entries())?,
+            fresh: reserve("fresh", Draw::LAYOUT, sizes.fresh_entries())?,
             samples: reserve("samples", Sample::LAYOUT, sizes.pixels())?,
             colours: reserve("colours", Colour::LAYOUT, sizes.pixels())?,
         };
@@ -146,12 +178,17 @@ impl FramePlan {
     }
 
     const fn limits(&self) -> Limits {
+        let stack = match self.sizes.scheduler {
+            Scheduler::Local => self.sizes.group_stack(),
+            _ => self.sizes.stack_entries(),
+        };
         Limits {
             patches: self.sizes.patches,
             batch: self.sizes.batch,
-            stack_room: self.sizes.stack_entries() as u32,
+            stack_room: stack as u32,
             draw_room: self.sizes.draw_entries() as u32,
             levels: self.sizes.levels,
+            groups: self.sizes.group_entries() as u32,
         }
     }
 
@@ -184,7 +221,7 @@ impl FramePlan {
         loop {
             match schedule.step() {
                 Step::Batch => {
-                    run_batch(device, buffers)?;
+                    self.batch(device, buffers)?;
                     counts.batches += 1;
                 }
                 Step::Draw => self.draw(device, buffers)?,
@@ -194,9 +231,32 @@ impl FramePlan {
                     progress(&counts);
                     schedule.answer(&control);
                 }
-                Step::Done => return Ok(counts),
+                Step::Done => {
+                    counts.load = self.load(device, buffers)?;
+                    return Ok(counts);
+                }
             }
         }
+    }
+
+    /// How LOCAL's groups shared the work.
+    fn load<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<Option<Load>, D::Error> {
+        if self.sizes.scheduler != Scheduler::Local {
+            return Ok(None);
+        }
+        let groups = self.sizes.groups();
+        let mut load = Load { groups, least: u32::MAX, most: 0, total: 0 };
+        let mut some = [Group::default(); 64];
+        for first in (0..groups).step_by(some.len()) {
+            let some = &mut some[..(groups - first).min(64) as usize];
+            device.read(&b.groups, u64::from(first), some)?;
+            for group in some {
+                load.least = load.least.min(group.load);
+                load.most = load.most.max(group.load);
+                load.total += u64::from(group.load);
+            }
+        }
+        Ok(Some(load))
     }
 
     /// BREADTH: a level is a batch. The host asks after each, and makes room for the next.
@@ -255,6 +315,14 @@ impl FramePlan {
         device.write(&b.limits, &[Limits { levels: 1, ..*limits }])
     }
 
+    /// One batch, or one round of LOCAL's groups.
+    fn batch<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
+        match self.sizes.scheduler {
+            Scheduler::Local => run_round(device, b, self.sizes.groups()),
+            _ => run_batch(device, b),
+        }
+    }
+
     fn draw<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
         let image =
             Items::Image { width: self.sizes.width, height: self.sizes.height, rate: self.frame.rate };
@@ -274,6 +342,15 @@ fn run_batch<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D:
     device.dispatch(Stage::Scan, Items::Taken, &scan)?;
     let split = [&b.control, &b.batch, &b.verdicts, &b.slots, &b.stack, &b.draws];
     device.dispatch(Stage::Split, Items::Taken, &split)
+}
+
+/// A round of LOCAL; in the first one the groups have nothing to do yet.
+fn run_round<D: Device>(device: &mut D, b: &Buffers<D::Buffer>, groups: u32) -> Result<(), D::Error> {
+    let local = [&b.frame, &b.objects, &b.patches, &b.dealt, &b.groups, &b.stack, &b.fresh];
+    device.dispatch(Stage::Local, Items::Groups(groups), &local)?;
+    device.dispatch(Stage::Balance, Items::Count(1), &[&b.limits, &b.groups, &b.control])?;
+    let deal = [&b.control, &b.groups, &b.stack, &b.fresh, &b.dealt, &b.draws];
+    device.dispatch(Stage::Deal, Items::Groups(groups), &deal)
 }
 
 /// Reads the counts and starts them anew.

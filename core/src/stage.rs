@@ -2,8 +2,8 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Layout, Limits, Object, Patch, Question, Sample, Shared, Slot, Surface,
-    Verdict,
+    Colour, Control, Draw, Frame, Group, Layout, Limits, Object, Patch, Question, Sample, Shared, Slot,
+    Surface, Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -41,6 +41,8 @@ pub enum Items {
     Count(u32),
     /// One a surface of the batch in flight: [`Control::taken`], known on the device.
     Taken,
+    /// So many groups of LOCAL, each with all that its memory has room for.
+    Groups(u32),
     /// The image, and for each part of it all draws in the draw buffer: [`Control::waiting`] +
     /// [`Control::fresh`], known on the device.
     Image {
@@ -64,6 +66,12 @@ pub enum Stage {
     Scan,
     /// Children to the stack, the rest to the draw buffer: [`crate::kernel::split`].
     Split,
+    /// LOCAL: each group works on its own stack: [`crate::kernel::local`].
+    Local,
+    /// LOCAL: counts, and what each group will have next: [`crate::kernel::balance`].
+    Balance,
+    /// LOCAL: surfaces to their new groups, draws to the draw buffer: [`crate::kernel::deal`].
+    Deal,
     /// Dice, shade and sample each drawn surface, fused: [`crate::kernel::dice`],
     /// [`crate::kernel::shade`], [`crate::kernel::sample`].
     Draw,
@@ -75,8 +83,18 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 7] =
-        [Self::Take, Self::Bound, Self::Scan, Self::Split, Self::Draw, Self::Flush, Self::KnownAnswers];
+    pub const ALL: [Self; 10] = [
+        Self::Take,
+        Self::Bound,
+        Self::Scan,
+        Self::Split,
+        Self::Local,
+        Self::Balance,
+        Self::Deal,
+        Self::Draw,
+        Self::Flush,
+        Self::KnownAnswers,
+    ];
 
     /// Its name: that of its file on every device.
     #[must_use]
@@ -86,6 +104,9 @@ impl Stage {
             Self::Bound => "bound",
             Self::Scan => "scan",
             Self::Split => "split",
+            Self::Local => "local",
+            Self::Balance => "balance",
+            Self::Deal => "deal",
             Self::Draw => "draw",
             Self::Flush => "flush",
             Self::KnownAnswers => "known_answers",
@@ -130,6 +151,34 @@ impl Stage {
                         read::<Verdict>("verdicts"),
                         read::<Slot>("slots"),
                         write::<Surface>("stack"),
+                        write::<Draw>("draws"),
+                    ]
+                }
+            }
+            Self::Local => {
+                const {
+                    &[
+                        read::<Frame>("frame"),
+                        read::<Object>("objects"),
+                        read::<Patch>("patches"),
+                        read::<Surface>("dealt"),
+                        write::<Group>("groups"),
+                        write::<Surface>("stack"),
+                        write::<Draw>("fresh"),
+                    ]
+                }
+            }
+            Self::Balance => {
+                const { &[read::<Limits>("limits"), write::<Group>("groups"), write::<Control>("control")] }
+            }
+            Self::Deal => {
+                const {
+                    &[
+                        read::<Control>("control"),
+                        read::<Group>("groups"),
+                        read::<Surface>("stack"),
+                        read::<Draw>("fresh"),
+                        write::<Surface>("dealt"),
                         write::<Draw>("draws"),
                     ]
                 }

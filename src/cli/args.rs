@@ -96,7 +96,7 @@ pub(crate) struct BenchArguments {
         value_enum,
         value_delimiter = ',',
         value_name = "LIST",
-        default_value = "breadth,bounded,adaptive"
+        default_value = "breadth,bounded,local,adaptive"
     )]
     pub(crate) chosen: Vec<SchedulerChoice>,
     /// Batch sizes of those schedulers that have one, separated by commas.
@@ -157,7 +157,7 @@ pub(crate) struct FrameArguments {
     /// How the stack of surfaces is worked off. The image does not depend on it.
     #[arg(long, value_enum, default_value_t = SchedulerChoice::Adaptive)]
     scheduler: SchedulerChoice,
-    /// Entries of the stack for --scheduler adaptive; the number of patches + levels - 1 is enough. The image
+    /// Entries of the stack for --scheduler adaptive or local; as many as there are levels are enough. The image
     /// does not depend on it.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u32).range(1..))]
     stack: Option<u32>,
@@ -209,6 +209,8 @@ pub(crate) enum SchedulerChoice {
     Breadth,
     /// Batches of fixed size (Weber 2014).
     Bounded,
+    /// Groups with small stacks of their own, between which surfaces are dealt out again and again.
+    Local,
     /// As many as are safe for the stack, however small it is.
     Adaptive,
 }
@@ -231,6 +233,7 @@ impl From<SchedulerChoice> for Scheduler {
             SchedulerChoice::Stack => Self::Stack,
             SchedulerChoice::Breadth => Self::Breadth,
             SchedulerChoice::Bounded => Self::Bounded,
+            SchedulerChoice::Local => Self::Local,
             SchedulerChoice::Adaptive => Self::Adaptive,
         }
     }

@@ -1,12 +1,15 @@
 //! One pure function a stage, one stage a file; device kernels mirror them by name.
 #![deny(clippy::float_arithmetic)]
 
+pub mod balance;
 pub mod bound;
 pub mod bound_lanes;
 pub mod clip;
+pub mod deal;
 pub mod dice;
 pub mod dice_gregory;
 pub mod known_answers;
+pub mod local;
 pub mod project;
 pub mod quads;
 pub mod sample;

@@ -17,6 +17,9 @@ pub enum Scheduler {
     /// Batches of fixed size from the top of the stack, children in the place of their parents (Weber 2014,
     /// sec. 4.3).
     Bounded,
+    /// Groups with a stack of their own each, in local memory; what they have left is dealt out anew after some
+    /// batches, so that all have as much to do (after Weber 2014, sec. 4.4).
+    Local,
     /// As many surfaces of the top, up to a batch, as are safe for the stack's capacity, however small it is:
     /// see `docs/proofs/stack.md`.
     #[default]
@@ -25,7 +28,7 @@ pub enum Scheduler {
 
 impl Scheduler {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Stack, Self::Breadth, Self::Bounded, Self::Adaptive];
+    pub const ALL: [Self; 5] = [Self::Stack, Self::Breadth, Self::Bounded, Self::Local, Self::Adaptive];
 
     /// Its name on the command line and in statistics.
     #[must_use]
@@ -34,6 +37,7 @@ impl Scheduler {
             Self::Stack => "stack",
             Self::Breadth => "breadth",
             Self::Bounded => "bounded",
+            Self::Local => "local",
             Self::Adaptive => "adaptive",
         }
     }
