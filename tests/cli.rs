@@ -198,12 +198,49 @@ fn options_that_cannot_be_are_refused() {
 fn the_smallest_memory_that_is_named_is_enough() {
     let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
     let (_, text, _) = render(&scene, &["--memory=1KiB"]);
-    let words: Vec<&str> = text.split_whitespace().collect();
-    let at = words.iter().position(|word| *word == "--memory").expect("a remedy");
-    let least: u64 = words[at + 1].parse().expect("a number of bytes");
+    let least = memory_named(&text);
     assert_eq!(render(&scene, &[&format!("--memory={least}")]).0, 0);
     let (code, text, _) = render(&scene, &[&format!("--memory={}", least - 1)]);
     assert!(code == 1 && text.contains("too small"), "{text}");
+}
+
+/// The number of bytes that a message says to use.
+fn memory_named(text: &str) -> u64 {
+    let mut words = text.split_whitespace().skip_while(|word| *word != "--memory");
+    words.nth(1).and_then(|bytes| bytes.parse().ok()).unwrap_or_else(|| panic!("no --memory BYTES in {text}"))
+}
+
+#[test]
+fn breadth_keeps_to_its_budget_or_says_what_the_next_level_needs() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let path = scene.with_file_name("out.png");
+    assert_eq!(render(&scene, &[]).0, 0);
+    let expected = std::fs::read(&path).expect("an image");
+    let (mut budget, mut levels) = (1024, 0);
+    loop {
+        std::fs::remove_file(&path).unwrap_or_default();
+        let (code, text, written) = render(&scene, &["--scheduler=breadth", &format!("--memory={budget}")]);
+        if code == 0 {
+            assert!(std::fs::read(&path).expect("an image") == expected, "another image");
+            break;
+        }
+        assert!(code == 1 && !written, "exit code {code}: {text}");
+        assert!(text.contains(&format!("memory budget of {budget} bytes is too small")), "{text}");
+        let needed = memory_named(&text);
+        assert!(needed > budget && text.contains(&format!("needs at least {needed} bytes")), "{text}");
+        levels += usize::from(text.contains("a level of"));
+        budget = needed;
+    }
+    assert!(levels > 1, "only {levels} levels were refused");
+}
+
+#[test]
+fn schedulers_without_a_batch_say_nothing_of_smaller_batches() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    for scheduler in ["stack", "breadth", "bounded", "adaptive"] {
+        let (code, text, _) = render(&scene, &["--scheduler", scheduler, "--backend=cpu"]);
+        assert!(code == 0 && !text.contains("instead of"), "{scheduler}: {text}");
+    }
 }
 
 #[test]

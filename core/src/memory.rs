@@ -240,7 +240,11 @@ impl Sizes {
         if self.fit(room) {
             return Ok(self);
         }
-        let smallest = Self { batch: 1, ..self };
+        let smallest = match self.scheduler {
+            // A level is a batch, and all patches are the first.
+            Scheduler::Breadth => self,
+            _ => Self { batch: 1, ..self },
+        };
         if !smallest.fit(room) {
             if let Some(error) = smallest.too_large(room) {
                 return Err(error);

@@ -151,7 +151,8 @@ pub(crate) struct FrameArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "memory",
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_BATCH)))]
     batch: Option<u32>,
-    /// Memory that the device may use, for example 64MiB. The image does not depend on it.
+    /// Memory that the device may use, for example 64MiB; breadth ends in an error once it needs more. The image
+    /// does not depend on it.
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = bytes)]
     memory: Option<u64>,
     /// How the stack of surfaces is worked off. The image does not depend on it.
