@@ -33,6 +33,7 @@ fn ball(camera: Camera) -> Scene {
     Scene {
         name: "ball".into(),
         camera,
+        path: None,
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.5),
         lights: vec![Light::Point { position: glam::DVec3::ZERO, colour: glam::Vec3::splat(0.5) }],
