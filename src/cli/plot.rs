@@ -49,7 +49,13 @@ pub(super) fn rate_over_memory(path: &Path, rows: &[Row]) -> Drawn {
     let curves = curves(&own, |row| row.scheduler.to_owned(), |row| (row.memory as f64 / 1024.0, row.rate));
     let (memory, rates) = ranges(&curves);
     let texts = Texts { caption, x: "memory, KiB", y: "million surfaces a second" };
-    draw(path, &texts, (memory.start * 0.8..memory.end * 1.25).log_scale(), 0.0..rates.end * 1.1, &curves)
+    draw(
+        path,
+        &texts,
+        (memory.start * 0.8..memory.end * 1.25).log_scale().base(2.0),
+        0.0..rates.end * 1.1,
+        &curves,
+    )
 }
 
 /// Fig. 7.1: memory over frames of the first scene on its first device, a curve a scheduler and batch.
@@ -110,6 +116,11 @@ fn colour(index: usize) -> RGBAColor {
     Palette99::pick(index + usize::from(index >= YELLOW)).to_rgba()
 }
 
+/// A number at an axis, without the digits that only rounding makes.
+fn number(value: f64) -> String {
+    ((value * 1000.0).round() / 1000.0).to_string()
+}
+
 fn draw<X>(path: &Path, texts: &Texts<'_>, x: X, y: Range<f64>, curves: &[Curve]) -> Drawn
 where
     X: AsRangedCoord<Value = f64>,
@@ -123,7 +134,14 @@ where
         .x_label_area_size(40)
         .y_label_area_size(LEFT)
         .build_cartesian_2d(x, y)?;
-    chart.configure_mesh().x_desc(texts.x).y_desc(texts.y).light_line_style(TRANSPARENT).draw()?;
+    chart
+        .configure_mesh()
+        .x_desc(texts.x)
+        .y_desc(texts.y)
+        .light_line_style(TRANSPARENT)
+        .x_label_formatter(&|value| number(*value))
+        .y_label_formatter(&|value| number(*value))
+        .draw()?;
     for (index, curve) in curves.iter().enumerate() {
         let points = || curve.points.iter().copied();
         chart.draw_series(LineSeries::new(points(), colour(index).stroke_width(2)))?;
