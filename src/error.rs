@@ -1,5 +1,6 @@
 //! Errors as a user reads them: where, what, and what to do about it.
 
+use std::error::Error as StdError;
 use std::path::{Path, PathBuf};
 
 use micropoly_core::error::PlanError;
@@ -98,6 +99,14 @@ impl Error {
         Self::Content { path: path.to_owned(), problem: problem.into(), remedy: remedy.into() }
     }
 
+    /// What a device reports: either its own error, or that of the plan that ran on it.
+    pub(crate) fn on_device(error: &impl StdError) -> Self {
+        match error.source().and_then(|source| source.downcast_ref()) {
+            Some(&plan) => Self::Plan(plan),
+            None => Self::Device(error.to_string()),
+        }
+    }
+
     /// An error that no single file is to blame for.
     #[must_use]
     pub fn scene(problem: impl Into<String>, remedy: impl Into<String>) -> Self {
@@ -109,6 +118,10 @@ fn remedy(error: &PlanError) -> String {
     match error {
         PlanError::Invalid { option, least, most, .. } => format!("choose a {option} from {least} to {most}"),
         PlanError::Budget { needed, .. } => format!("use --memory {needed} or more, or a smaller --res"),
+        PlanError::Level { needed, .. } => format!(
+            "use --memory {needed} or more (a later level may need more still), or --scheduler adaptive, which needs \
+             no more than a fixed amount"
+        ),
         PlanError::TooLarge { .. } => {
             "use another device (see `micropoly devices` for limits), --backend cpu, or a smaller scene or --res"
                 .to_owned()

@@ -23,8 +23,19 @@ const RESOLVE_ROWS: u32 = 16;
 pub enum Batch {
     /// So many.
     Surfaces(u32),
-    /// As many as fit into so many bytes together with everything else that the device holds.
+    /// As many as fit into so many bytes together with everything else that the device holds. BREADTH, which
+    /// takes all there are, ends in an error once it would need more.
     Memory(u64),
+}
+
+impl Batch {
+    /// Most bytes that the device may hold.
+    const fn budget(self) -> u64 {
+        match self {
+            Self::Surfaces(_) => u64::MAX,
+            Self::Memory(bytes) => bytes,
+        }
+    }
 }
 
 impl Default for Batch {
@@ -77,7 +88,7 @@ pub struct Rendering {
 /// Renders on any device.
 ///
 /// # Errors
-/// [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
+/// [`Error::Scene`], [`Error::Plan`] (among them a level of BREADTH beyond the budget) or [`Error::Device`].
 pub fn render_on<D: Device>(
     device: D,
     device_name: String,
@@ -90,9 +101,9 @@ pub fn render_on<D: Device>(
     let room = room_on(&device, &options.frame);
     let sizes = chosen_sizes(scene, options, room)?;
     let notes = note_on(options, &sizes, room).into_iter().collect();
-    let plan = FramePlan::with_sizes(frame, sizes).map_err(Error::Plan)?;
+    let plan = FramePlan::with_sizes(frame, sizes).map_err(Error::Plan)?.within(options.batch.budget());
     let mut device = Timed::new(device);
-    let failed = |error: D::Error| Error::Device(error.to_string());
+    let failed = |error: D::Error| Error::on_device(&error);
     let mut buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
     let setup = start.elapsed().as_secs_f64();
     let counts = plan.run(&mut device, &mut buffers, progress).map_err(failed)?;
@@ -116,20 +127,16 @@ pub fn render_on<D: Device>(
 fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room) -> Result<Sizes> {
     let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
     let FrameOptions { width, height, levels, .. } = options.frame;
-    let (batch, bytes) = match options.batch {
-        Batch::Surfaces(batch) => (batch, u64::MAX),
-        Batch::Memory(bytes) => (DEFAULT_BATCH, bytes),
+    let batch = match options.batch {
+        Batch::Surfaces(batch) => batch,
+        Batch::Memory(_) => DEFAULT_BATCH,
     };
     let (patches, faces) = (count(scene.patch_count()), count(scene.gregory_count()));
     let objects = count(scene.objects.len());
-    if options.scheduler == Scheduler::Breadth && bytes != u64::MAX {
-        let problem = "no budget bounds the memory of the breadth scheduler";
-        return Err(Error::scene(problem, "leave out --memory, or choose another --scheduler"));
-    }
     let (scheduler, capacity) = (options.scheduler, options.capacity);
     let sizes =
         Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height }.checked();
-    sizes.and_then(|sizes| sizes.fitted(Room { bytes, ..room })).map_err(Error::Plan)
+    sizes.and_then(|sizes| sizes.fitted(Room { bytes: options.batch.budget(), ..room })).map_err(Error::Plan)
 }
 
 /// What the plan would allocate for a scene on a device without limits of its own.
@@ -153,8 +160,9 @@ fn room_on<D: Device>(device: &D, options: &FrameOptions) -> Room {
 
 /// Tells a user whose batch does not fit the device.
 fn note_on(options: &RenderOptions, sizes: &Sizes, room: Room) -> Option<String> {
+    let has_batch = !matches!(options.scheduler, Scheduler::Stack | Scheduler::Breadth);
     match options.batch {
-        Batch::Surfaces(asked) if asked > sizes.batch => Some(format!(
+        Batch::Surfaces(asked) if has_batch && asked > sizes.batch => Some(format!(
             "batches of {} surfaces instead of {asked}, so that no buffer is larger than the {} bytes that the \
              device binds at once; the image is the same",
             sizes.batch, room.buffer_bytes

@@ -8,6 +8,7 @@ use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 
 use crate::error::{Error, Result};
 use crate::gregory::GregoryPatch;
+use crate::path::CameraPath;
 use crate::{bpt, mscene, scene_file};
 
 /// A bicubic Bézier patch: 16 control points, index `4·i + j` with `i` along u.
@@ -44,6 +45,8 @@ pub struct Scene {
     pub name: String,
     /// The camera.
     pub camera: Camera,
+    /// The camera's path, for frames of an animation.
+    pub path: Option<CameraPath>,
     /// Colour where nothing is, linear RGB.
     pub background: Vec3,
     /// Light from everywhere, linear RGB.
@@ -119,10 +122,32 @@ impl Scene {
         Ok(Self {
             name,
             camera,
+            path: None,
             background: Vec3::splat(0.8),
             ambient: Vec3::splat(0.15),
             lights: vec![Light::Directional { to_light, colour: Vec3::splat(0.9) }],
             objects,
+        })
+    }
+
+    /// The camera at a frame of its path, which need not be whole.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if there is no path, or it has no such frame, or the camera looks nowhere there.
+    pub fn camera_at(&self, frame: f64) -> Result<Camera> {
+        self.path()?.at(frame, self.camera.near)
+    }
+
+    /// The camera's path.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if there is none.
+    pub fn path(&self) -> Result<&CameraPath> {
+        self.path.as_ref().ok_or_else(|| {
+            Error::scene(
+                format!("{}: the camera has no path", self.name),
+                "give a scene file (.toml) two [[camera.key]] or more: see \"Scene files\" in the README",
+            )
         })
     }
 
@@ -162,12 +187,17 @@ impl Scene {
     /// # Errors
     /// [`Error::Scene`] if there is nothing to draw, or numbers are beyond what kernels can work with.
     pub fn for_device(&self, options: &FrameOptions) -> Result<DeviceScene> {
+        self.seen_from(&self.camera, options)
+    }
+
+    /// As [`Scene::for_device`], with another camera.
+    pub(crate) fn seen_from(&self, camera: &Camera, options: &FrameOptions) -> Result<DeviceScene> {
         if self.patch_count() == 0 {
             return Err(Error::scene("the scene has no patches", "add an [[object]] with geometry"));
         }
         check_options(options)?;
         self.check_colours()?;
-        if !self.camera.is_usable(options.height) {
+        if !camera.is_usable(options.height) {
             return Err(Error::scene(
                 "the camera's near plane or field of view is out of range",
                 "near must be 1e-6 or more, fov between 0 and 180 degrees",
@@ -177,7 +207,7 @@ impl Scene {
         let (mut patches, mut faces) = (Vec::with_capacity(count + self.gregory_count()), Vec::new());
         let mut objects = Vec::with_capacity(self.objects.len());
         for (index, object) in self.objects.iter().enumerate() {
-            let placed = self.camera.object(object.to_world, &object.material);
+            let placed = camera.object(object.to_world, &object.material);
             check_extent(&placed, object)?;
             objects.push(placed);
             let index = index as u32;
@@ -188,7 +218,7 @@ impl Scene {
             }
         }
         patches.append(&mut faces);
-        Ok(DeviceScene { frame: self.camera.frame(options, self.ambient, &self.lights), objects, patches })
+        Ok(DeviceScene { frame: camera.frame(options, self.ambient, &self.lights), objects, patches })
     }
 }
 

@@ -12,6 +12,7 @@ use crate::error::{Error, Result, line_at, read_text, utf8};
 use crate::generate::{self, Generator};
 use crate::gregory::GregoryPatch;
 use crate::image::linear_from_srgb;
+use crate::path::{CameraKey, CameraPath};
 use crate::scene::{BezierPatch, Scene, SceneObject};
 
 /// Most patches that the generators of a scene may make together.
@@ -42,6 +43,19 @@ struct CameraTable {
     up: Option<Vector>,
     fov: Spanned<f64>,
     near: Spanned<f64>,
+    #[serde(default)]
+    key: Vec<Spanned<KeyTable>>,
+}
+
+/// Where the camera is at one frame; what is left out is as in the camera's own table.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KeyTable {
+    frame: Spanned<u32>,
+    eye: Vector,
+    target: Vector,
+    up: Option<Vector>,
+    fov: Option<Spanned<f64>>,
 }
 
 #[derive(Deserialize)]
@@ -132,6 +146,7 @@ fn parse(path: &Path, text: &str) -> Result<Scene> {
     Ok(Scene {
         name: path.display().to_string(),
         camera: at.camera(&table.camera)?,
+        path: at.path(&table.camera)?,
         background: at.colour(table.background.as_ref(), Vec3::ZERO)?,
         ambient: at.colour(table.ambient.as_ref(), Vec3::splat(0.1))?,
         lights: table.light.iter().map(|light| at.light(light)).collect::<Result<_>>()?,
@@ -193,14 +208,57 @@ impl Place<'_> {
     }
 
     fn camera(&self, table: &Spanned<CameraTable>) -> Result<Camera> {
-        let CameraTable { eye, target, up, fov, near } = table.get_ref();
-        let up = up.as_ref().map_or(Ok(DVec3::Z), |up| self.vector(up))?;
-        let fov = self.number(fov, "fov", 0.001, 179.0)?;
+        let CameraTable { eye, target, up, fov, near, .. } = table.get_ref();
+        let (up, fov) = (self.up(up.as_ref())?, self.fov(fov)?);
         let near = self.number(near, "near", f64::from(MIN_NEAR), 1.0e12)?;
         let (eye_at, target) = (self.vector(eye)?, self.vector(target)?);
-        Camera::look_at(eye_at, target, up, fov, near).ok_or_else(|| {
-            self.wrong(eye, "the camera looks nowhere, or straight along `up`", "move eye, target or up")
-        })
+        Camera::look_at(eye_at, target, up, fov, near).ok_or_else(|| self.looks_nowhere(eye))
+    }
+
+    fn up(&self, value: Option<&Vector>) -> Result<DVec3> {
+        value.map_or(Ok(DVec3::Z), |up| self.vector(up))
+    }
+
+    fn fov(&self, value: &Spanned<f64>) -> Result<f64> {
+        self.number(value, "fov", 0.001, 179.0)
+    }
+
+    fn looks_nowhere(&self, eye: &Vector) -> Error {
+        self.wrong(eye, "the camera looks nowhere, or straight along `up`", "move eye, target or up")
+    }
+
+    /// The camera's path, if it has keys.
+    fn path(&self, table: &Spanned<CameraTable>) -> Result<Option<CameraPath>> {
+        let camera = table.get_ref();
+        if let [only] = camera.key.as_slice() {
+            let problem = "a path needs two [[camera.key]] at least";
+            return Err(self.wrong(only, problem, "add another one, or remove this one"));
+        }
+        let mut keys: Vec<CameraKey> = Vec::with_capacity(camera.key.len());
+        for key in &camera.key {
+            let frame = &key.get_ref().frame;
+            if let Some(last) = keys.last().map(|key| key.frame).filter(|last| last >= frame.get_ref()) {
+                let problem = format!("a key at frame {} follows one at frame {last}", frame.get_ref());
+                return Err(self.wrong(frame, problem, "let frames ascend from key to key"));
+            }
+            keys.push(self.key(key.get_ref(), camera)?);
+        }
+        if keys.is_empty() { Ok(None) } else { CameraPath::new(keys).map(Some) }
+    }
+
+    fn key(&self, table: &KeyTable, camera: &CameraTable) -> Result<CameraKey> {
+        let KeyTable { frame, eye, target, up, fov } = table;
+        let key = CameraKey {
+            frame: *frame.get_ref(),
+            eye: self.vector(eye)?,
+            target: self.vector(target)?,
+            up: self.up(up.as_ref().or(camera.up.as_ref()))?,
+            fov: self.fov(fov.as_ref().unwrap_or(&camera.fov))?,
+        };
+        match key.camera(*camera.near.get_ref()) {
+            Some(_) => Ok(key),
+            None => Err(self.looks_nowhere(eye)),
+        }
     }
 
     fn light(&self, table: &Spanned<LightTable>) -> Result<Light> {

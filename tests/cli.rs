@@ -47,6 +47,15 @@ const CAMERA: &str = "eye = [0, -5, 1]\ntarget = [0, 0, 0]\nfov = 40\nnear = 0.1
 const OBJECT: &str = "geometry = \"patches.bpt\"";
 const FLAT: &str = "1\n1 1\n-1 -1 0  -1 1 0  1 -1 0  1 1 0\n";
 
+/// A camera with keys at these frames, four lines each from line 6 on; it moves away.
+fn keys(frames: &[u32]) -> String {
+    let key = |&frame: &u32| {
+        let far = f64::from(frame + 10) / 10.0;
+        format!("[[camera.key]]\nframe = {frame}\neye = [0.5, -{far}, 1]\ntarget = [0, 0, 0]\n")
+    };
+    format!("{CAMERA}\n{}", frames.iter().map(key).collect::<String>())
+}
+
 const HAIR: &str = "generate = { kind = \"hair\", count = 6000000 }";
 
 /// A failure that says what, where and how to mend it.
@@ -152,6 +161,16 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"#+f+f+f\""), "this is not a colour"),
         (scene(CAMERA, "generate = { kind = \"moss\", count = 1 }"), "unknown variant"),
         (format!("[camera]\n{CAMERA}\n"), "no [[object]]"),
+        (scene(&keys(&[0]), OBJECT), "scene.toml:6: a path needs two [[camera.key]] at least"),
+        (scene(&keys(&[0, 9, 9]), OBJECT), "scene.toml:15: a key at frame 9 follows one at frame 9"),
+        (scene(&keys(&[5, 2]), OBJECT), "scene.toml:11: a key at frame 2 follows one at frame 5"),
+        (
+            scene(&keys(&[0, 2]).replace("eye = [0.5, -1.2, 1]", "eye = [0, 0, 0]"), OBJECT),
+            "scene.toml:12: the camera looks nowhere",
+        ),
+        (scene(&format!("{}fov = 180", keys(&[0, 2])), OBJECT), "scene.toml:14: fov is 180"),
+        (scene(&format!("{}near = 1", keys(&[0, 2])), OBJECT), "unknown field `near`"),
+        (scene(&keys(&[0, 2]).replace("frame = 2", "frame = -2"), OBJECT), "scene.toml:11"),
     ] {
         let (_folder, scene) = folder(&text, FLAT);
         assert_refused(render(&scene, &[]), what);
@@ -198,12 +217,49 @@ fn options_that_cannot_be_are_refused() {
 fn the_smallest_memory_that_is_named_is_enough() {
     let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
     let (_, text, _) = render(&scene, &["--memory=1KiB"]);
-    let words: Vec<&str> = text.split_whitespace().collect();
-    let at = words.iter().position(|word| *word == "--memory").expect("a remedy");
-    let least: u64 = words[at + 1].parse().expect("a number of bytes");
+    let least = memory_named(&text);
     assert_eq!(render(&scene, &[&format!("--memory={least}")]).0, 0);
     let (code, text, _) = render(&scene, &[&format!("--memory={}", least - 1)]);
     assert!(code == 1 && text.contains("too small"), "{text}");
+}
+
+/// The number of bytes that a message says to use.
+fn memory_named(text: &str) -> u64 {
+    let mut words = text.split_whitespace().skip_while(|word| *word != "--memory");
+    words.nth(1).and_then(|bytes| bytes.parse().ok()).unwrap_or_else(|| panic!("no --memory BYTES in {text}"))
+}
+
+#[test]
+fn breadth_keeps_to_its_budget_or_says_what_the_next_level_needs() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let path = scene.with_file_name("out.png");
+    assert_eq!(render(&scene, &[]).0, 0);
+    let expected = std::fs::read(&path).expect("an image");
+    let (mut budget, mut levels) = (1024, 0);
+    loop {
+        std::fs::remove_file(&path).unwrap_or_default();
+        let (code, text, written) = render(&scene, &["--scheduler=breadth", &format!("--memory={budget}")]);
+        if code == 0 {
+            assert!(std::fs::read(&path).expect("an image") == expected, "another image");
+            break;
+        }
+        assert!(code == 1 && !written, "exit code {code}: {text}");
+        assert!(text.contains(&format!("memory budget of {budget} bytes is too small")), "{text}");
+        let needed = memory_named(&text);
+        assert!(needed > budget && text.contains(&format!("needs at least {needed} bytes")), "{text}");
+        levels += usize::from(text.contains("a level of"));
+        budget = needed;
+    }
+    assert!(levels > 1, "only {levels} levels were refused");
+}
+
+#[test]
+fn schedulers_without_a_batch_say_nothing_of_smaller_batches() {
+    let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
+    for scheduler in ["stack", "breadth", "bounded", "adaptive"] {
+        let (code, text, _) = render(&scene, &["--scheduler", scheduler, "--backend=cpu"]);
+        assert!(code == 0 && !text.contains("instead of"), "{scheduler}: {text}");
+    }
 }
 
 #[test]
@@ -341,4 +397,73 @@ fn bench_prints_the_table_and_writes_it() {
     assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 7);
     assert_eq!(std::fs::read_to_string(csv).expect("rows").lines().count(), 7);
     assert!(std::fs::read_to_string(svg).expect("a plot").contains("adaptive"));
+}
+
+#[test]
+fn bench_along_a_path_has_a_row_a_view_and_names_the_spike() {
+    let (folder, scene) = folder(&scene(&keys(&[10, 20]), OBJECT), FLAT);
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    let (json, svg) = (path("rows.json"), path("plot.svg"));
+    let scene = scene.to_str().expect("UTF-8");
+    let arguments =
+        ["bench", scene, "--path", "--views=3", "--repeat=1", "--res=640x360", "--batches=64,256"];
+    let output = micropoly(&[&arguments[..], &["--json", &json, "--plot", &svg]].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let rows: Vec<serde_json::Value> =
+        serde_json::from_slice(&std::fs::read(json).expect("rows")).expect("JSON");
+    let frames: Vec<f64> = rows.iter().map(|row| row["frame"].as_f64().expect("a frame")).collect();
+    assert_eq!(frames, [[10.0; 5], [15.0; 5], [20.0; 5]].concat());
+
+    let breadth = rows.iter().filter(|row| row["scheduler"] == "breadth");
+    let spike = breadth.max_by_key(|row| row["memory"].as_u64()).expect("a row");
+    assert_eq!(spike["frame"], 10.0, "the camera moves away");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let said = text.lines().last().expect("a line");
+    assert!(said.starts_with("spike view") && said.contains("frame 10,"), "{text}");
+    assert_eq!(text.lines().count(), 1 + 15 + 1, "{text}");
+    let plot = std::fs::read_to_string(svg).expect("a plot");
+    for name in ["breadth", "bounded 64", "bounded 256", "adaptive 256", "frame", "memory, MiB"] {
+        assert!(plot.contains(name), "{name} is missing");
+    }
+}
+
+#[test]
+fn bench_at_a_frame_measures_what_the_path_has_there() {
+    let (folder, scene) = folder(&scene(&keys(&[10, 20]), OBJECT), FLAT);
+    let json = folder.path().join("rows.json").to_str().expect("UTF-8").to_owned();
+    let scene = scene.to_str().expect("UTF-8");
+    let processed = |view: &[&str]| {
+        let common = ["bench", scene, "--schedulers=breadth", "--repeat=1", "--res=640x360", "--json", &json];
+        let output = micropoly(&[&common, view].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let rows: Vec<serde_json::Value> =
+            serde_json::from_slice(&std::fs::read(&json).expect("rows")).expect("JSON");
+        rows.iter().map(|row| row["processed"].as_u64().expect("a number")).collect::<Vec<_>>()
+    };
+    let path = processed(&["--path", "--views=3"]);
+    assert_eq!(processed(&["--frame=15"]), [path[1]]);
+    assert_eq!(processed(&["--frame=10"]), [path[0]]);
+    assert_ne!(path[0], processed(&[])[0], "the path does not begin where the camera is");
+}
+
+#[test]
+fn bench_refuses_frames_that_no_path_has() {
+    let (_with, with_path) = folder(&scene(&keys(&[10, 20]), OBJECT), FLAT);
+    let (_without, without) = folder(&scene(CAMERA, OBJECT), FLAT);
+    let bench = |scene: &Path, more: &[&str]| {
+        let output = micropoly(&[&["bench", scene.to_str().expect("UTF-8"), "--res=640x360"], more].concat());
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    for (scene, more, code, what) in [
+        (&without, &["--path"][..], 1, "scene.toml: the camera has no path"),
+        (&without, &["--frame=3"], 1, "two [[camera.key]] or more"),
+        (&with_path, &["--frame=21"], 1, "choose a frame from 10 to 20"),
+        (&with_path, &["--frame=nan"], 1, "no frame NaN"),
+        (&with_path, &["--frame=12", "--path"], 2, "cannot be used with"),
+        (&with_path, &["--views=12"], 2, "--path"),
+        (&with_path, &["--path", "--views=0"], 2, "--views"),
+    ] {
+        let (found, text) = bench(scene, more);
+        assert!(found == Some(code) && text.contains(what), "{more:?} gave {found:?}: {text}");
+    }
 }

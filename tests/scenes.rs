@@ -2,9 +2,13 @@
 
 use std::path::Path;
 
+use micropoly::bench::{Plan, Views, devices, spike};
 use micropoly::core::camera::{Camera, Light, Material};
 use micropoly::generate::{Generator, generate};
-use micropoly::{BezierPatch, FrameOptions, Image, RenderOptions, Rendering, Scene, SceneObject, render};
+use micropoly::{
+    Backend, BezierPatch, FrameOptions, Image, RenderOptions, Rendering, Scene, SceneObject, Scheduler,
+    render,
+};
 
 fn render_at(scene: &Scene, width: u32, height: u32, bound: f32) -> Rendering {
     let frame = FrameOptions { width, height, bound, ..FrameOptions::default() };
@@ -33,6 +37,7 @@ fn ball(camera: Camera) -> Scene {
     Scene {
         name: "ball".into(),
         camera,
+        path: None,
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.5),
         lights: vec![Light::Point { position: glam::DVec3::ZERO, colour: glam::Vec3::splat(0.5) }],
@@ -165,4 +170,24 @@ fn every_point_of_the_teapot_is_the_published_one() {
     for (a, b) in points(&patches).into_iter().zip(points(&published.objects[0].patches)) {
         assert!((a - b).abs() < 1.0e-6, "{a} is not {b}");
     }
+}
+
+#[test]
+fn the_flight_through_the_city_begins_at_its_camera_and_has_its_spike_at_frame_300() {
+    let city = Scene::load("scenes/city.toml").expect("a scene");
+    assert_eq!(city.camera_at(0.0).expect("a camera"), city.camera);
+    let plan = Plan {
+        devices: devices(Some(Backend::Cpu)).expect("a CPU"),
+        schedulers: vec![Scheduler::Breadth],
+        batches: Vec::new(),
+        views: Views::Path(7),
+        repeat: 1,
+        options: RenderOptions::default(),
+    };
+    let rows = plan.run(&city, |_| {}).expect("runs");
+    let spike = spike(&rows).expect("BREADTH was measured");
+    assert_eq!(spike.frame, Some(300.0));
+    let others = rows.iter().filter(|row| row.frame != spike.frame);
+    let most = others.map(|row| row.memory).max().expect("other views");
+    assert!(spike.memory > 2 * most, "{} bytes, and {most} elsewhere", spike.memory);
 }

@@ -28,6 +28,7 @@ fn extreme_scene(random: &mut fastrand::Rng) -> Option<Scene> {
     Some(Scene {
         name: "extreme".into(),
         camera,
+        path: None,
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.1),
         lights: vec![light],

@@ -62,7 +62,14 @@ impl fmt::Display for CpuError {
     }
 }
 
-impl std::error::Error for CpuError {}
+impl std::error::Error for CpuError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Plan(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl From<PlanError> for CpuError {
     fn from(error: PlanError) -> Self {

@@ -147,7 +147,14 @@ pub(crate) fn out_of_memory(code: &ClError) -> bool {
     [CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_OUT_OF_RESOURCES, CL_OUT_OF_HOST_MEMORY].contains(&code.0)
 }
 
-impl std::error::Error for OclError {}
+impl std::error::Error for OclError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Plan(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl From<PlanError> for OclError {
     fn from(error: PlanError) -> Self {

@@ -123,7 +123,14 @@ fn inexact(f: &mut fmt::Formatter<'_>, device: &str, mismatch: &Mismatch) -> fmt
     )
 }
 
-impl std::error::Error for WgpuError {}
+impl std::error::Error for WgpuError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Plan(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl From<PlanError> for WgpuError {
     fn from(error: PlanError) -> Self {

@@ -11,7 +11,7 @@ use crate::stage::{Items, Stage};
 pub trait Device {
     /// A block of entries of one layout, in the device's memory.
     type Buffer;
-    /// What can go wrong on the device.
+    /// What can go wrong on the device. The source of an error that a plan made is that [`PlanError`].
     type Error: core::error::Error + From<PlanError>;
 
     /// Reserves `entries` entries, all bits zero.

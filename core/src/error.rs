@@ -23,6 +23,15 @@ pub enum PlanError {
         /// Bytes the smallest possible plan needs.
         needed: u64,
     },
+    /// BREADTH: a level needs larger buffers than the memory budget allows.
+    Level {
+        /// Surfaces of the level.
+        surfaces: u64,
+        /// Bytes the budget has.
+        have: u64,
+        /// Bytes that are held at once while the buffers grow, with everything else that the device holds.
+        needed: u64,
+    },
     /// A buffer that does not depend on the batch is larger than the device reserves in one piece.
     TooLarge {
         /// Name of the buffer.
@@ -51,6 +60,13 @@ impl fmt::Display for PlanError {
                 write!(
                     f,
                     "a memory budget of {have} bytes is too small; this frame needs at least {needed} bytes"
+                )
+            }
+            Self::Level { surfaces, have, needed } => {
+                write!(
+                    f,
+                    "a level of {surfaces} surfaces needs at least {needed} bytes, so that a memory budget of {have} bytes \
+                     is too small for the breadth scheduler"
                 )
             }
             Self::TooLarge { buffer, bytes, limit } => {

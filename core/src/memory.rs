@@ -248,10 +248,18 @@ impl Sizes {
     pub const fn bytes(&self) -> u64 {
         let batch_entry = size_of::<Surface>() + size_of::<Verdict>() + size_of::<Slot>();
         self.fixed_bytes()
-            + (self.stack_entries() + self.dealt_entries()) * size_of::<Surface>() as u64
+            + self.stack_entries() * size_of::<Surface>() as u64
             + self.batch_entries() * batch_entry as u64
-            + self.group_entries() * size_of::<Group>() as u64
-            + (self.draw_entries() + self.fresh_entries()) * size_of::<Draw>() as u64
+            + self.local_bytes()
+            + self.draw_entries() * size_of::<Draw>() as u64
+    }
+
+    /// Bytes of what LOCAL's groups need beside their stacks; next to nothing for the other schedulers.
+    #[must_use]
+    pub const fn local_bytes(&self) -> u64 {
+        self.group_entries() * size_of::<Group>() as u64
+            + self.dealt_entries() * size_of::<Surface>() as u64
+            + self.fresh_entries() * size_of::<Draw>() as u64
     }
 
     /// Entries of the buffer of patches.
@@ -309,7 +317,11 @@ impl Sizes {
         if self.fit(room) {
             return Ok(self);
         }
-        let smallest = Self { batch: 1, ..self };
+        let smallest = match self.scheduler {
+            // A level is a batch, and all patches are the first.
+            Scheduler::Breadth => self,
+            _ => Self { batch: 1, ..self },
+        };
         if !smallest.fit(room) {
             if let Some(error) = smallest.too_large(room) {
                 return Err(error);

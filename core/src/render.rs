@@ -97,6 +97,8 @@ pub struct FramePlan {
     frame: Frame,
     /// Are surfaces diced and sampled, or only subdivided?
     draws: bool,
+    /// Bytes that the device may hold while buffers grow.
+    budget: u64,
 }
 
 impl FramePlan {
@@ -121,7 +123,7 @@ impl FramePlan {
     pub const fn with_sizes(frame: Frame, sizes: Sizes) -> Result<Self, PlanError> {
         let sizes = Sizes { levels: frame.levels, width: frame.width, height: frame.height, ..sizes };
         match sizes.checked() {
-            Ok(sizes) => Ok(Self { sizes, frame, draws: true }),
+            Ok(sizes) => Ok(Self { sizes, frame, draws: true, budget: u64::MAX }),
             Err(error) => Err(error),
         }
     }
@@ -131,6 +133,13 @@ impl FramePlan {
     #[must_use]
     pub const fn without_drawing(self) -> Self {
         Self { draws: false, ..self }
+    }
+
+    /// The same plan with a limit in bytes for all buffers together, those included that the device needs for
+    /// itself. BREADTH keeps to it as it grows; for the other schedulers [`Sizes::fitted`] has seen to it.
+    #[must_use]
+    pub const fn within(self, budget: u64) -> Self {
+        Self { budget, ..self }
     }
 
     /// Sizes of all buffers.
@@ -196,7 +205,8 @@ impl FramePlan {
     /// Only BREADTH changes other buffers than those: they grow.
     ///
     /// # Errors
-    /// What the device reports; [`PlanError::Overflow`] if a buffer ran full.
+    /// What the device reports; [`PlanError::Overflow`] if a buffer ran full, [`PlanError::Level`] if BREADTH
+    /// needs more than its budget.
     pub fn run<D: Device>(
         &self,
         device: &mut D,
@@ -297,19 +307,24 @@ impl FramePlan {
             let (option, value) = ("surface stack", room);
             return Err(PlanError::Invalid { option, value, least: 1, most: MAX_STACK }.into());
         }
-        if count > limits.batch || count > limits.draw_room {
-            let entries = u64::from(count);
+        let batch = (count > limits.batch || count > limits.draw_room).then_some(u64::from(count));
+        let stack = (room > u64::from(limits.stack_room)).then_some(room);
+        let needed = self.other_bytes(device) + bytes_while_growing(limits, batch, stack);
+        if needed > self.budget {
+            return Err(PlanError::Level { surfaces: u64::from(count), have: self.budget, needed }.into());
+        }
+        if let Some(entries) = batch {
             b.batch = device.allocate("batch", Surface::LAYOUT, entries)?;
             b.verdicts = device.allocate("verdicts", Verdict::LAYOUT, entries)?;
             b.slots = device.allocate("slots", Slot::LAYOUT, entries)?;
             b.draws = device.allocate("draws", Draw::LAYOUT, entries)?;
             (limits.batch, limits.draw_room) = (count, count);
         }
-        if room > u64::from(limits.stack_room) {
-            let larger = device.allocate("stack", Surface::LAYOUT, room)?;
+        if let Some(entries) = stack {
+            let larger = device.allocate("stack", Surface::LAYOUT, entries)?;
             device.copy(&b.stack, &larger, u64::from(held))?;
             b.stack = larger;
-            limits.stack_room = room as u32;
+            limits.stack_room = entries as u32;
         }
         // A level is all there is, so its children are safe without any more room.
         device.write(&b.limits, &[Limits { levels: 1, ..*limits }])
@@ -323,6 +338,13 @@ impl FramePlan {
         }
     }
 
+    /// Bytes that the device holds beside the buffers that grow.
+    fn other_bytes<D: Device>(&self, device: &D) -> u64 {
+        let Sizes { width, height, .. } = self.sizes;
+        let own = if self.draws { device.own_bytes(width, height, self.frame.rate) } else { 0 };
+        self.sizes.fixed_bytes() + self.sizes.local_bytes() + own
+    }
+
     fn draw<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
         let image =
             Items::Image { width: self.sizes.width, height: self.sizes.height, rate: self.frame.rate };
@@ -332,6 +354,31 @@ impl FramePlan {
         }
         device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
     }
+}
+
+/// Most bytes that the buffers which grow hold at once while those that must grow do so, one after the other: a
+/// new buffer is there before the old one goes.
+fn bytes_while_growing(now: &Limits, batch: Option<u64>, stack: Option<u64>) -> u64 {
+    let buffers = [
+        (Surface::LAYOUT, now.batch, batch),
+        (Verdict::LAYOUT, now.batch, batch),
+        (Slot::LAYOUT, now.batch, batch),
+        (Draw::LAYOUT, now.draw_room, batch),
+        (Surface::LAYOUT, now.stack_room, stack),
+    ];
+    let buffers = buffers.map(|(layout, entries, larger)| {
+        let bytes = |entries: u64| entries * layout.size as u64;
+        (bytes(u64::from(entries)), larger.map(bytes))
+    });
+    let mut held: u64 = buffers.iter().map(|&(bytes, _)| bytes).sum();
+    let mut most = held;
+    for (old, larger) in buffers {
+        if let Some(new) = larger {
+            most = most.max(held + new);
+            held = held + new - old;
+        }
+    }
+    most
 }
 
 fn run_batch<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {

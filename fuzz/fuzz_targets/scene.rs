@@ -22,6 +22,11 @@ fuzz_target!(|bytes: &[u8]| -> Corpus {
             assert_eq!(device.patches.len(), scene.patch_count());
             assert!(is_finite(&device));
         }
+        for frame in scene.path.iter().flat_map(|path| path.evenly(5)) {
+            if let Ok(camera) = scene.camera_at(frame) {
+                assert!(camera.view.is_finite() && camera.fov.is_finite());
+            }
+        }
     }
     Corpus::Keep
 });

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use bytesize::ByteSize;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use micropoly::bench::Views;
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
-use micropoly::core::memory::MAX_BATCH;
+use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
 use micropoly::{Backend, Batch, FrameOptions, Profile, RenderOptions, Scheduler};
 
 /// Reyes micropolygon renderer: the same bits on every device.
@@ -90,6 +91,17 @@ pub(crate) struct BenchArguments {
     /// Which devices to measure on: `all`, or those of one backend.
     #[arg(long, value_enum, default_value_t = Compared::Cpu)]
     pub(crate) backend: Compared,
+    /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
+    /// spike view. Without a scene: the built-in city.
+    #[arg(long, conflicts_with = "at")]
+    pub(crate) path: bool,
+    /// Views along the path, evenly spaced from its first frame to its last.
+    #[arg(long, value_name = "N", default_value = "61", requires = "path",
+          value_parser = value_parser!(u32).range(1..=100_000))]
+    pub(crate) views: u32,
+    /// Measure the view at this frame of the camera's path.
+    #[arg(long = "frame", value_name = "T", allow_negative_numbers = true)]
+    pub(crate) at: Option<f64>,
     /// Schedulers to measure, separated by commas.
     #[arg(
         long = "schedulers",
@@ -99,10 +111,11 @@ pub(crate) struct BenchArguments {
         default_value = "breadth,bounded,local,adaptive"
     )]
     pub(crate) chosen: Vec<SchedulerChoice>,
-    /// Batch sizes of those schedulers that have one, separated by commas.
-    #[arg(long = "batches", value_delimiter = ',', value_name = "LIST", default_value = "256,1024,4096,16384",
+    /// Batch sizes of those schedulers that have one, separated by commas [default: 256,1024,4096,16384; along
+    /// a path 4096].
+    #[arg(long = "batches", value_delimiter = ',', value_name = "LIST",
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_BATCH)))]
-    pub(crate) batches: Vec<u32>,
+    batches: Vec<u32>,
     /// Runs of each; the shortest counts.
     #[arg(long, value_name = "N", default_value = "3", value_parser = value_parser!(u32).range(1..=1000))]
     pub(crate) repeat: u32,
@@ -112,11 +125,30 @@ pub(crate) struct BenchArguments {
     /// Write the table as comma-separated values to this file.
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
-    /// Plot rate over memory (Weber 2014, Fig. 7.2), a curve a scheduler, to this SVG file; of the first scene.
+    /// Plot to this SVG file, a curve a scheduler, of the first scene: rate over memory (Weber 2014, Fig. 7.2), or
+    /// along a path memory over frames (his Fig. 7.1).
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) plot: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,
+}
+
+impl BenchArguments {
+    pub(crate) const fn views(&self) -> Views {
+        match (self.path, self.at) {
+            (true, _) => Views::Path(self.views),
+            (false, Some(frame)) => Views::Frame(frame),
+            (false, None) => Views::Camera,
+        }
+    }
+
+    pub(crate) fn batches(&self) -> Vec<u32> {
+        match (self.batches.is_empty(), self.path) {
+            (false, _) => self.batches.clone(),
+            (true, false) => vec![256, 1024, 4096, 16384],
+            (true, true) => vec![DEFAULT_BATCH],
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -151,7 +183,8 @@ pub(crate) struct FrameArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "memory",
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_BATCH)))]
     batch: Option<u32>,
-    /// Memory that the device may use, for example 64MiB. The image does not depend on it.
+    /// Memory that the device may use, for example 64MiB; breadth ends in an error once it needs more. The image
+    /// does not depend on it.
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = bytes)]
     memory: Option<u64>,
     /// How the stack of surfaces is worked off. The image does not depend on it.

@@ -1,34 +1,33 @@
-//! `micropoly bench`: the table of Weber 2014, Table 7.2, and the plot of his Fig. 7.2.
+//! `micropoly bench`: the table of Weber 2014, Table 7.2, at one view or along a camera's path.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use bytesize::ByteSize;
-use micropoly::bench::{Plan, Row, devices};
+use micropoly::bench::{Plan, Row, Views, devices, spike};
 use micropoly::{Error, Result, Scene, scene_file};
-use plotters::prelude::{
-    ChartBuilder, Circle, DrawingAreaErrorKind, IntoDrawingArea, IntoLogRange, LineSeries, Palette,
-    Palette99, PathElement, SVGBackend, WHITE,
-};
-use plotters::style::Color;
 
 use super::args::BenchArguments;
+use super::plot;
 use super::render::write_json;
-
-/// Size of a plot in pixels.
-const PLOT: (u32, u32) = (800, 500);
 
 pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
     let plan = Plan {
         devices: devices(arguments.backend.only())?,
         schedulers: arguments.chosen.iter().map(|&choice| choice.into()).collect(),
-        batches: arguments.batches.clone(),
+        batches: arguments.batches(),
+        views: arguments.views(),
         repeat: arguments.repeat,
         options: arguments.frame.options(),
     };
-    let mut rows = Vec::new();
-    say!("{}", head());
-    for scene in scenes(&arguments.scenes)? {
-        rows.extend(plan.run(&scene, |row| say!("{}", line(row)))?);
+    let (mut rows, framed) = (Vec::new(), plan.views != Views::Camera);
+    say!("{}{}", if framed { "frame    " } else { "" }, head());
+    for scene in scenes(&arguments.scenes, framed)? {
+        let measured = plan.run(&scene, |row| say!("{}", line(row)))?;
+        if arguments.path {
+            say_spikes(&measured);
+        }
+        rows.extend(measured);
     }
     if let Some(path) = &arguments.json {
         write_json(path, &rows)?;
@@ -37,13 +36,25 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
         write_csv(path, &rows)?;
     }
     if let Some(path) = &arguments.plot {
-        plot(path, &rows).map_err(|error| Error::Write { path: path.clone(), why: error.to_string() })?;
+        let draw = if arguments.path { plot::memory_over_frames } else { plot::rate_over_memory };
+        draw(path, &rows).map_err(|error| Error::Write { path: path.clone(), why: error.to_string() })?;
     }
     Ok(())
 }
 
-/// The scenes that a user names, or the built-in ones.
-fn scenes(files: &[std::path::PathBuf]) -> Result<Vec<Scene>> {
+/// Says for each device at which frame BREADTH needs most memory.
+fn say_spikes(rows: &[Row]) {
+    for on_device in rows.chunk_by(|row, next| row.device == next.device) {
+        let Some(Row { frame: Some(frame), memory, max, device, .. }) = spike(on_device) else { continue };
+        let memory = ByteSize(*memory).display().iec();
+        say!(
+            "spike view on {device}: frame {frame}, where breadth needs {memory} for {max} surfaces at once"
+        );
+    }
+}
+
+/// The scenes that a user names, or the built-in ones; of these, those with a path if one is needed.
+fn scenes(files: &[std::path::PathBuf], with_path: bool) -> Result<Vec<Scene>> {
     let built_in =
         |(name, text): (&str, &str)| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
     if !files.is_empty() {
@@ -57,6 +68,7 @@ fn scenes(files: &[std::path::PathBuf]) -> Result<Vec<Scene>> {
     ]
     .into_iter()
     .map(built_in)
+    .filter(|scene| !with_path || scene.as_ref().is_ok_and(|scene| scene.path.is_some()))
     .collect()
 }
 
@@ -78,11 +90,11 @@ fn head() -> String {
 }
 
 fn line(row: &Row) -> String {
-    let name =
-        Path::new(&row.scene).file_stem().map_or(row.scene.as_str().into(), |name| name.to_string_lossy());
+    let name = short(&row.scene);
     let batch = if row.batch == 0 { "-".to_owned() } else { row.batch.to_string() };
+    let frame = row.frame.map_or_else(String::new, |frame| format!("{:<8} ", format!("{frame:.2}")));
     format!(
-        "{name:<16} {:<5} {:<9} {batch:>7} {:>10.2} {:>11} {:>9} {:>10} {:>9} {:>8} {:>12.2}",
+        "{frame}{name:<16} {:<5} {:<9} {batch:>7} {:>10.2} {:>11} {:>9} {:>10} {:>9} {:>8} {:>12.2}",
         row.backend,
         row.scheduler,
         row.seconds * 1e3,
@@ -95,6 +107,11 @@ fn line(row: &Row) -> String {
     )
 }
 
+/// A scene's name without folders and extension.
+pub(super) fn short(scene: &str) -> Cow<'_, str> {
+    Path::new(scene).file_stem().map_or(scene.into(), |name| name.to_string_lossy())
+}
+
 fn write_csv(path: &Path, rows: &[Row]) -> Result<()> {
     let failed = |error: csv::Error| Error::Write { path: path.to_owned(), why: error.to_string() };
     let mut writer = csv::Writer::from_path(path).map_err(failed)?;
@@ -102,40 +119,4 @@ fn write_csv(path: &Path, rows: &[Row]) -> Result<()> {
         writer.serialize(row).map_err(failed)?;
     }
     writer.flush().map_err(|error| failed(error.into()))
-}
-
-/// Rate over memory of the first scene on its first device, a curve a scheduler.
-fn plot(path: &Path, rows: &[Row]) -> std::result::Result<(), DrawingAreaErrorKind<std::io::Error>> {
-    let Some(first) = rows.first() else { return Ok(()) };
-    let own: Vec<&Row> =
-        rows.iter().filter(|row| row.scene == first.scene && row.device == first.device).collect();
-    let most = |value: fn(&Row) -> f64| own.iter().map(|row| value(row)).fold(f64::MIN_POSITIVE, f64::max);
-    let least = own.iter().map(|row| kib(row)).fold(f64::INFINITY, f64::min);
-    let area = SVGBackend::new(path, PLOT).into_drawing_area();
-    area.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&area)
-        .caption(format!("{} on {}", first.scene, first.device), ("sans-serif", 18))
-        .margin(12)
-        .x_label_area_size(40)
-        .y_label_area_size(60)
-        .build_cartesian_2d((least * 0.8..most(kib) * 1.25).log_scale(), 0.0..most(|row| row.rate) * 1.1)?;
-    chart.configure_mesh().x_desc("memory, KiB").y_desc("million surfaces a second").draw()?;
-    let mut names: Vec<&str> = own.iter().map(|row| row.scheduler).collect();
-    names.dedup();
-    for (index, name) in names.into_iter().enumerate() {
-        let colour = Palette99::pick(index).to_rgba();
-        let points: Vec<(f64, f64)> =
-            own.iter().filter(|row| row.scheduler == name).map(|row| (kib(row), row.rate)).collect();
-        chart
-            .draw_series(LineSeries::new(points.clone(), colour.stroke_width(2)))?
-            .label(name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
-        chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, colour.filled())))?;
-    }
-    chart.configure_series_labels().background_style(WHITE).border_style(plotters::style::BLACK).draw()?;
-    area.present()
-}
-
-fn kib(row: &Row) -> f64 {
-    row.memory as f64 / 1024.0
 }

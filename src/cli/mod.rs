@@ -14,6 +14,7 @@ mod bench;
 mod conform;
 mod devices;
 mod info;
+mod plot;
 mod progress;
 mod render;
 mod summary;

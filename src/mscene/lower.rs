@@ -26,6 +26,7 @@ pub(super) fn scene(path: &Path, file: &Mscene) -> Result<Scene> {
     Ok(Scene {
         name: path.display().to_string(),
         camera,
+        path: None,
         background: Vec3::ZERO,
         ambient,
         lights,
