@@ -47,6 +47,10 @@ pub struct Row {
     pub batches: u64,
     /// Million surfaces bounded a second.
     pub rate: f64,
+    /// Number of LOCAL's groups.
+    pub groups: Option<u32>,
+    /// How far the load of any of them is from the mean at most, as a share of it.
+    pub imbalance: Option<f64>,
 }
 
 /// From where a scene is seen.
@@ -183,6 +187,8 @@ fn measure<D: Device>(device: &mut D, view: &View<'_>, options: &RenderOptions, 
         drawn: counts.drawn,
         batches: counts.batches,
         rate: counts.processed as f64 / seconds * 1e-6,
+        groups: counts.load.map(|load| load.groups),
+        imbalance: counts.load.map(|load| load.imbalance()),
     })
 }
 

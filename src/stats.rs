@@ -3,6 +3,7 @@
 //! Fields are only ever added under the same `version`.
 
 use micropoly_core::memory::Sizes;
+use micropoly_core::render::Load;
 use serde::Serialize;
 
 use crate::render::{Batch, RenderOptions, Rendering};
@@ -59,8 +60,30 @@ pub struct Surfaces {
     pub max_stack: u64,
     /// The proven maximum of it; BREADTH has none.
     pub stack_bound: Option<u64>,
-    /// Batches that were taken.
+    /// Batches that were taken; of LOCAL, rounds.
     pub batches: u64,
+    /// How LOCAL's groups shared the work.
+    pub load: Option<LoadStats>,
+}
+
+/// Surfaces bounded by LOCAL's groups.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct LoadStats {
+    /// Number of groups.
+    pub groups: u32,
+    /// Of the group that bounded fewest.
+    pub least: u32,
+    /// Of a group on average.
+    pub mean: f64,
+    /// Of the group that bounded most.
+    pub most: u32,
+}
+
+impl From<Load> for LoadStats {
+    fn from(load: Load) -> Self {
+        let Load { groups, least, most, total } = load;
+        Self { groups, least, mean: total as f64 / f64::from(groups), most }
+    }
 }
 
 /// Options, as they took effect.
@@ -112,6 +135,7 @@ impl Stats {
                 max_stack: counts.max_stack,
                 stack_bound: sizes.stack_bound(),
                 batches: counts.batches,
+                load: counts.load.map(LoadStats::from),
             },
             micropolygons: counts.micropolygons,
             bytes_allocated: *bytes_allocated,

@@ -74,7 +74,7 @@ fn scenes(files: &[std::path::PathBuf], with_path: bool) -> Result<Vec<Scene>> {
 
 fn head() -> String {
     format!(
-        "{:<16} {:<5} {:<9} {:>7} {:>10} {:>11} {:>9} {:>10} {:>9} {:>8} {:>12}",
+        "{:<16} {:<5} {:<9} {:>7} {:>10} {:>11} {:>9} {:>10} {:>9} {:>8} {:>12} {:>14}",
         "scene",
         "back",
         "scheduler",
@@ -85,16 +85,18 @@ fn head() -> String {
         "processed",
         "drawn",
         "batches",
-        "M surfaces/s"
+        "M surfaces/s",
+        "groups' load"
     )
 }
 
 fn line(row: &Row) -> String {
     let name = short(&row.scene);
     let batch = if row.batch == 0 { "-".to_owned() } else { row.batch.to_string() };
+    let load = row.imbalance.map_or_else(String::new, |share| format!("mean ± {:.1} %", share * 100.0));
     let frame = row.frame.map_or_else(String::new, |frame| format!("{:<8} ", format!("{frame:.2}")));
-    format!(
-        "{frame}{name:<16} {:<5} {:<9} {batch:>7} {:>10.2} {:>11} {:>9} {:>10} {:>9} {:>8} {:>12.2}",
+    let text = format!(
+        "{frame}{name:<16} {:<5} {:<9} {batch:>7} {:>10.2} {:>11} {:>9} {:>10} {:>9} {:>8} {:>12.2} {load:>14}",
         row.backend,
         row.scheduler,
         row.seconds * 1e3,
@@ -104,7 +106,8 @@ fn line(row: &Row) -> String {
         row.drawn,
         row.batches,
         row.rate
-    )
+    );
+    text.trim_end().to_owned()
 }
 
 /// A scene's name without folders and extension.

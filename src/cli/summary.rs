@@ -4,12 +4,18 @@ use std::fmt::Write;
 use std::path::Path;
 
 use bytesize::ByteSize;
-use micropoly::stats::{Stats, Surfaces};
+use micropoly::stats::{LoadStats, Stats, Surfaces};
 
 fn stack(surfaces: &Surfaces) -> String {
-    match surfaces.stack_bound {
+    let most = match surfaces.stack_bound {
         Some(bound) => format!("{} surfaces at most, proven bound {bound}", surfaces.max_stack),
         None => format!("{} surfaces at most, without a bound", surfaces.max_stack),
+    };
+    match surfaces.load {
+        Some(LoadStats { groups, least, most: busiest, .. }) => {
+            format!("{most}; {groups} groups bounded {least} to {busiest} each")
+        }
+        None => most,
     }
 }
 
