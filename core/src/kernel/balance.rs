@@ -52,14 +52,13 @@ impl Totals {
 
 /// Roots that all groups together are given: as many as fill a batch of each, if their stacks stay safe.
 ///
-/// A stack of which all is dealt, `d` surfaces of level 1 or deeper, stays safe above `r` roots if `r + d` is at
-/// most `capacity - levels + 2`; the roots are safe if `r` is at most `capacity - levels + 1`.
+/// A stack of `d` surfaces, of any levels, stays safe above `r` roots if `r + d` is at most `capacity - levels + 1`.
 #[inline(always)]
 #[must_use]
 pub const fn roots_given(limits: &Limits, held: u32, waiting: u32) -> u32 {
     let dealt = share(held, 0, limits.groups);
     let wanted = LOCAL_BATCH.saturating_sub(dealt);
-    let room = (limits.stack_room + 2).saturating_sub(limits.levels + if dealt > 1 { dealt } else { 1 });
+    let room = (limits.stack_room + 1).saturating_sub(limits.levels + dealt);
     let each = if wanted < room { wanted } else { room };
     let most = each * limits.groups;
     if waiting < most { waiting } else { most }
