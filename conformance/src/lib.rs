@@ -12,5 +12,6 @@ mod outcome;
 pub mod report;
 pub mod stages;
 pub mod trial;
+mod witness;
 
-pub use outcome::{Case, Outcome, run, run_scheduled};
+pub use outcome::{Case, Outcome, Schedule, run, run_scheduled};

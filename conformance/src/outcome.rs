@@ -1,13 +1,17 @@
 //! Rendering a case and boiling the result down to what must be equal everywhere.
 
+use std::fmt;
+
 use micropoly_core::abi::{Colour, Frame, Object, Patch, Sample};
 use micropoly_core::backend::Device;
 use micropoly_core::error::PlanError;
-use micropoly_core::memory::Sizes;
+use micropoly_core::memory::{Sizes, stack_min};
 use micropoly_core::patch::gregory::patch_count;
 use micropoly_core::render::{Buffers, FramePlan};
 use micropoly_core::schedule::Scheduler;
 use serde::Serialize;
+
+use crate::witness::Witness;
 
 /// Entries that are read from the device at once.
 const BLOCK: usize = 1 << 16;
@@ -26,11 +30,12 @@ pub struct Case {
 }
 
 impl Case {
-    /// Plans its frame; `capacity` as in [`Sizes::capacity`].
+    /// Plans its frame.
     ///
     /// # Errors
     /// What the plan reports.
-    pub fn plan(&self, scheduler: Scheduler, batch: u32, capacity: u32) -> Result<FramePlan, PlanError> {
+    pub fn plan(&self, schedule: Schedule) -> Result<FramePlan, PlanError> {
+        let Schedule { scheduler, batch, capacity } = schedule;
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         let patches = patch_count(&self.patches);
         let faces = count(self.patches.len() - patches);
@@ -38,6 +43,56 @@ impl Case {
         let Frame { levels, width, height, .. } = self.frame;
         let sizes = Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height };
         FramePlan::with_sizes(self.frame, sizes)
+    }
+}
+
+/// How a case is worked off: it must make no difference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Schedule {
+    /// The scheduler.
+    pub scheduler: Scheduler,
+    /// Surfaces a batch.
+    pub batch: u32,
+    /// Entries of the stack, as in [`Sizes::capacity`].
+    pub capacity: u32,
+}
+
+impl Schedule {
+    /// The default scheduler with a batch of this size.
+    #[must_use]
+    pub fn of_batch(batch: u32) -> Self {
+        Self { scheduler: Scheduler::default(), batch, capacity: 0 }
+    }
+
+    /// Every scheduler; those that can do with less at their least, a little above it and as they like it.
+    #[must_use]
+    pub fn all(case: &Case) -> Vec<Self> {
+        let least = stack_min(u64::from(case.frame.levels)) as u32;
+        [
+            (Scheduler::Stack, 1, 0),
+            (Scheduler::Breadth, 1, 0),
+            (Scheduler::Bounded, 100, 0),
+            (Scheduler::Bounded, 5000, 0),
+            (Scheduler::Local, 64, least),
+            (Scheduler::Local, 1000, 16 * least + 50),
+            (Scheduler::Local, 5000, 0),
+            (Scheduler::Adaptive, 100, 0),
+            (Scheduler::Adaptive, 5000, least),
+            (Scheduler::Adaptive, 64, least + 70),
+        ]
+        .map(|(scheduler, batch, capacity)| Self { scheduler, batch, capacity })
+        .to_vec()
+    }
+}
+
+impl fmt::Display for Schedule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { scheduler, batch, capacity } = self;
+        match (scheduler, capacity) {
+            (Scheduler::Stack | Scheduler::Breadth, _) => write!(f, "{}", scheduler.name()),
+            (_, 0) => write!(f, "{}, batch {batch}", scheduler.name()),
+            _ => write!(f, "{}, batch {batch}, stack {capacity}", scheduler.name()),
+        }
     }
 }
 
@@ -50,6 +105,8 @@ pub struct Outcome {
     pub colours: String,
     /// Samples that something covers.
     pub covered: u64,
+    /// Stands for the set of surfaces that were diced, and the pixels they could touch.
+    pub drawn_set: String,
     /// Surfaces that were bounded.
     pub processed: u64,
     /// Surfaces that were diced.
@@ -67,28 +124,29 @@ pub struct Outcome {
 /// # Errors
 /// What the plan or the device reports.
 pub fn run<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Outcome, D::Error> {
-    run_scheduled(device, case, Scheduler::default(), batch, 0)
+    run_scheduled(device, case, Schedule::of_batch(batch))
 }
 
-/// Renders a case with any scheduler; `capacity` as in [`Sizes::capacity`].
+/// Renders a case with any scheduler.
 ///
 /// # Errors
 /// What the plan or the device reports.
 pub fn run_scheduled<D: Device>(
     device: &mut D,
     case: &Case,
-    scheduler: Scheduler,
-    batch: u32,
-    capacity: u32,
+    schedule: Schedule,
 ) -> Result<Outcome, D::Error> {
-    let plan = case.plan(scheduler, batch, capacity)?;
+    let plan = case.plan(schedule)?;
     let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
-    let counts = plan.run(device, &mut buffers, |_| {})?;
+    let mut witness = Witness::new(device);
+    let counts = plan.run(&mut witness, &mut buffers, |_| {})?;
+    let drawn_set = witness.drawn_set();
     let (samples, covered) = hash_samples(device, &buffers, plan.sizes().pixels())?;
     Ok(Outcome {
         samples,
         colours: hash_colours(device, &buffers, plan.sizes().pixels())?,
         covered,
+        drawn_set,
         processed: counts.processed,
         drawn: counts.drawn,
         culled: counts.culled,

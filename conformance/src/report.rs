@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use micropoly_core::abi::Colour;
 use micropoly_core::backend::Device;
-use micropoly_core::schedule::Scheduler;
+use micropoly_core::memory::DEFAULT_BATCH;
 use micropoly_core::stage::Stage;
 use serde::Serialize;
 
 use crate::corpus;
-use crate::outcome::{Case, Outcome, run};
+use crate::outcome::{Case, Outcome, Schedule, run, run_scheduled};
 use crate::stages::{Difference, first_difference, run_stage};
 
 /// How one stage fared.
@@ -25,13 +25,13 @@ pub struct StageReport {
     pub error: Option<String>,
 }
 
-/// How one case fared with one batch size.
+/// How one case fared with one schedule.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseReport {
     /// Name of the case.
     pub case: String,
-    /// Surfaces a batch.
-    pub batch: u32,
+    /// Scheduler, batch and stack.
+    pub schedule: String,
     /// What the reference made of it.
     pub expected: Outcome,
     /// What the device made of it; `None` if it failed.
@@ -105,7 +105,7 @@ pub fn check_stage<R: Device, D: Device>(
     report
 }
 
-/// Renders a case on both devices.
+/// Renders a case on both devices, on the reference with the default schedule.
 ///
 /// # Errors
 /// What the reference reports; what the device reports is in the report.
@@ -113,22 +113,22 @@ pub fn check_case<R: Device, D: Device>(
     reference: &mut R,
     device: &mut D,
     case: &Case,
-    batch: u32,
+    schedule: Schedule,
 ) -> Result<CaseReport, R::Error> {
-    let expected = run(reference, case, batch)?;
-    let (found, error) = match run(device, case, batch) {
+    let expected = run(reference, case, DEFAULT_BATCH)?;
+    let (found, error) = match run_scheduled(device, case, schedule) {
         Ok(outcome) => (Some(outcome), None),
         Err(error) => (None, Some(error.to_string())),
     };
-    Ok(CaseReport { case: case.name.clone(), batch, expected, found, error })
+    Ok(CaseReport { case: case.name.clone(), schedule: schedule.to_string(), expected, found, error })
 }
 
 /// All colours of a case, row after row: for pictures of what differs.
 ///
 /// # Errors
 /// What the plan or the device reports.
-pub fn colours<D: Device>(device: &mut D, case: &Case, batch: u32) -> Result<Vec<Colour>, D::Error> {
-    let plan = case.plan(Scheduler::default(), batch, 0)?;
+pub fn colours<D: Device>(device: &mut D, case: &Case, schedule: Schedule) -> Result<Vec<Colour>, D::Error> {
+    let plan = case.plan(schedule)?;
     let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
     plan.run(device, &mut buffers, |_| {})?;
     let mut colours = vec![Colour::default(); plan.sizes().pixels() as usize];

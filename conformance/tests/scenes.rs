@@ -9,11 +9,9 @@ mod common;
 use common::{devices, report};
 use micropoly::devices::{Job, with_device};
 use micropoly::{Backend, FrameOptions, Scene};
-use micropoly_conformance::{Case, Outcome, run, run_scheduled};
+use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::backend::Device;
 use micropoly_core::known::{Mismatch, check};
-use micropoly_core::memory::stack_min;
-use micropoly_core::schedule::Scheduler;
 
 const SCENES: [&str; 5] = ["teapot", "eyesplit", "spheres", "still-life", "gregory"];
 const SIZES: [(u32, u32); 3] = [(160, 90), (320, 180), (640, 360)];
@@ -73,23 +71,6 @@ fn all_backends_give_the_bits_of_the_snapshot() {
     }
 }
 
-/// Schedulers with batches and capacities: as ADAPTIVE asks, as small as it can be, and a little larger.
-fn schedules(case: &Case) -> Vec<(Scheduler, u32, u32)> {
-    let least = stack_min(u64::from(case.frame.levels)) as u32;
-    vec![
-        (Scheduler::Stack, 1, 0),
-        (Scheduler::Breadth, 1, 0),
-        (Scheduler::Bounded, 100, 0),
-        (Scheduler::Bounded, 5000, 0),
-        (Scheduler::Local, 64, least),
-        (Scheduler::Local, 1000, 16 * least + 50),
-        (Scheduler::Local, 5000, 0),
-        (Scheduler::Adaptive, 100, 0),
-        (Scheduler::Adaptive, 5000, least),
-        (Scheduler::Adaptive, 64, least + 70),
-    ]
-}
-
 /// Renders all cases with all schedulers on one device.
 struct ScheduleAll<'a>(&'a [Case]);
 
@@ -97,9 +78,9 @@ impl Job for ScheduleAll<'_> {
     type Output = Vec<(String, Outcome)>;
 
     fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
-        let all = self.0.iter().flat_map(|case| schedules(case).into_iter().map(move |how| (case, how)));
-        all.map(|(case, (scheduler, batch, capacity))| {
-            let outcome = run_scheduled(&mut device, case, scheduler, batch, capacity).expect("renders");
+        let all = self.0.iter().flat_map(|case| Schedule::all(case).into_iter().map(move |how| (case, how)));
+        all.map(|(case, schedule)| {
+            let outcome = run_scheduled(&mut device, case, schedule).expect("renders");
             (case.name.clone(), outcome)
         })
         .collect()
@@ -114,7 +95,7 @@ fn all_schedulers_give_the_bits_of_the_snapshot() {
         for (case, outcome) in with_device(&entry, threads, ScheduleAll(&cases)).expect("opens") {
             insta::allow_duplicates! { insta::assert_json_snapshot!(case, outcome) };
         }
-        let runs = format!("{} scenes with {} schedules", SCENES.len(), schedules(&cases[0]).len());
+        let runs = format!("{} scenes with {} schedules", SCENES.len(), Schedule::all(&cases[0]).len());
         report(&entry, &runs, "as the snapshots");
     }
 }

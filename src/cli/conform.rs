@@ -5,9 +5,9 @@ use std::path::Path;
 use micropoly::core::backend::Device;
 use micropoly::core::stage::Stage;
 use micropoly::devices::{DeviceEntry, Job, devices_of, with_device};
-use micropoly::{Backend, Error, FrameOptions, Image, Result, Scene, bpt, scene_file};
+use micropoly::{Backend, Error, FrameOptions, Image, Result, Scene, Scheduler, bpt, scene_file};
 use micropoly_conformance::report::{CaseReport, DeviceReport, check_case, check_stage, colours};
-use micropoly_conformance::{Case, Outcome, corpus};
+use micropoly_conformance::{Case, Outcome, Schedule, corpus};
 use serde_json::Value;
 
 use super::args::{Compared, ConformArguments};
@@ -17,6 +17,8 @@ use super::render::write_json;
 const SIZES: [(u32, u32); 3] = [(160, 90), (640, 360), (1280, 720)];
 /// Surfaces a batch.
 const BATCHES: [u32; 3] = [300, 4096, 50_000];
+/// Fewer patches than this make a small scene.
+const FEW: usize = 5000;
 
 pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
     let entries = compared(arguments.backend)?;
@@ -83,6 +85,16 @@ fn cases(files: &[std::path::PathBuf]) -> Result<Vec<Case>> {
     Ok(cases)
 }
 
+/// Batches of all sizes; of small images also all schedulers, but one surface at a time only in small scenes.
+fn schedules(case: &Case) -> Vec<Schedule> {
+    let mut all = BATCHES.map(Schedule::of_batch).to_vec();
+    if case.frame.width == SIZES[0].0 {
+        let affordable = |how: &Schedule| how.scheduler != Scheduler::Stack || case.patches.len() < FEW;
+        all.extend(Schedule::all(case).into_iter().filter(affordable));
+    }
+    all
+}
+
 /// Comparing one device with the CPU.
 struct Conform<'a> {
     entry: &'a DeviceEntry,
@@ -127,12 +139,12 @@ impl<D: Device> Job for AgainstReference<'_, D> {
             report.stages.push(checked);
         }
         for case in self.conform.cases {
-            for batch in BATCHES {
-                let checked = check_case(&mut reference, &mut self.device, case, batch)
+            for schedule in schedules(case) {
+                let checked = check_case(&mut reference, &mut self.device, case, schedule)
                     .map_err(|error| Error::Device(error.to_string()))?;
                 print_case(&checked);
                 if !checked.agrees() {
-                    self.picture(&mut reference, case, batch)?;
+                    self.picture(&mut reference, case, schedule)?;
                 }
                 report.cases.push(checked);
             }
@@ -143,10 +155,10 @@ impl<D: Device> Job for AgainstReference<'_, D> {
 
 impl<D: Device> AgainstReference<'_, D> {
     /// Writes expected, actual and difference of a case side by side.
-    fn picture<R: Device>(&mut self, reference: &mut R, case: &Case, batch: u32) -> Result<()> {
+    fn picture<R: Device>(&mut self, reference: &mut R, case: &Case, schedule: Schedule) -> Result<()> {
         let (width, height) = (case.frame.width, case.frame.height);
         let (Ok(expected), Ok(actual)) =
-            (colours(reference, case, batch), colours(&mut self.device, case, batch))
+            (colours(reference, case, schedule), colours(&mut self.device, case, schedule))
         else {
             return Ok(());
         };
@@ -173,7 +185,7 @@ fn side_by_side(expected: &Image, actual: &Image) -> Image {
 }
 
 fn print_case(report: &CaseReport) {
-    let what = format!("batch {}, {} surfaces", report.batch, report.expected.processed);
+    let what = format!("{}: {} surfaces", report.schedule, report.expected.processed);
     print_row(&report.case, &what, report.agrees());
     for (field, expected, found) in differences(report) {
         say!("      {field} is {found}, should be {expected}");
@@ -194,7 +206,7 @@ fn differences(report: &CaseReport) -> Vec<(String, Value, Value)> {
 }
 
 fn print_row(name: &str, what: &str, agrees: bool) {
-    say!("  {name:<24} {what:<36} {}", if agrees { "same bits" } else { "DIFFERS" });
+    say!("  {name:<24} {what:<46} {}", if agrees { "same bits" } else { "DIFFERS" });
 }
 
 fn print_error(error: Option<&str>) {
