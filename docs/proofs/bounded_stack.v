@@ -545,6 +545,156 @@ Proof. intros HC R V.
   - assert (c = length v) as Hc by lia. rewrite Hc, firstn_all, skipn_all, app_nil_r in S'.
     apply roots_exact in S'; [|auto|lia]. split; [|auto].
     pose proof (roots_base q v ltac:(lia) S' ltac:(lia)). lia. Qed.
+
+(* ---- LOCAL: many stacks, dealt anew ---- *)
+
+(* Of entry j of stack g, where ns are the stacks' lengths: how many come before it, row by row. *)
+Definition rank (ns : list nat) (g j : nat) :=
+  list_sum (map (fun n => Nat.min n j) ns) + length (filter (fun n => j <? n) (firstn g ns)).
+
+Definition lengths (ss : list (list nat)) := map (@length nat) ss.
+Definition entry (s : list nat) (e : nat) := nth e (rev s) 0.
+
+(* An entry of rank i comes to stack i mod G and lies there at i / G. *)
+Definition dealt (ss ss' : list (list nat)) := length ss' = length ss /\
+  forall g' e, g' < length ss -> e < length (nth g' ss' []) ->
+    exists g j, g < length ss /\ j < length (nth g ss []) /\
+      rank (lengths ss) g j = length ss * e + g' /\ entry (nth g' ss' []) e = entry (nth g ss []) j.
+
+Lemma rank_row ns g j : list_sum (map (fun n => Nat.min n j) ns) <= length ns * j /\
+  length (filter (fun n => j <? n) (firstn g ns)) <= g.
+Proof. split.
+  - induction ns; cbn [map list_sum fold_right length]; [lia|]. unfold list_sum in *. simpl. lia.
+  - revert ns. induction g; intros [|n ns]; cbn [firstn filter length]; try lia.
+    specialize (IHg ns). destruct (j <? n); cbn [length]; lia. Qed.
+
+(* Lemma 12 *)
+Theorem deal_lowers ns g j : g < length ns -> rank ns g j / length ns <= j.
+Proof. intro H. destruct (rank_row ns g j). unfold rank.
+  apply Nat.lt_succ_r, Nat.div_lt_upper_bound; nia. Qed.
+
+Lemma row_S ns j : list_sum (map (fun n => Nat.min n (S j)) ns) =
+  list_sum (map (fun n => Nat.min n j) ns) + length (filter (fun n => j <? n) ns).
+Proof. induction ns as [|n ns IH]; auto. cbn [map filter]. unfold list_sum in *. cbn [fold_right].
+  rewrite IH. destruct (Nat.ltb_spec j n); cbn [length]; lia. Qed.
+Lemma row_mono ns j j' : j <= j' -> list_sum (map (fun n => Nat.min n j) ns) <=
+  list_sum (map (fun n => Nat.min n j') ns).
+Proof. intro H. unfold list_sum. induction ns; cbn [map fold_right]; lia. Qed.
+Lemma column_S ns g g' j : g < g' -> g < length ns -> j < nth g ns 0 ->
+  length (filter (fun n => j <? n) (firstn g ns)) < length (filter (fun n => j <? n) (firstn g' ns)).
+Proof. revert g g'. induction ns as [|n ns IH]; intros g g' Hg Hl Hj; cbn [length] in Hl; [lia|].
+  destruct g' as [|g']; [lia|]. destruct g as [|g]; cbn [firstn filter nth] in *.
+  - destruct (Nat.ltb_spec j n); cbn [length]; lia.
+  - specialize (IH g g' ltac:(lia) ltac:(lia) Hj). destruct (j <? n); cbn [length]; lia. Qed.
+Lemma rank_mono ns g j g' j' : g < length ns -> j < nth g ns 0 -> j < j' \/ (j = j' /\ g < g') ->
+  rank ns g j < rank ns g' j'.
+Proof. intros Hg Hj [H|(<- & H)]; unfold rank.
+  - pose proof (column_S ns g (length ns) j Hg Hg Hj). rewrite firstn_all in H0.
+    pose proof (row_S ns j). pose proof (row_mono ns (S j) j' H). lia.
+  - pose proof (column_S ns g g' j H Hg Hj). lia. Qed.
+Lemma rank_total ns g j : g < length ns -> j < nth g ns 0 -> rank ns g j < list_sum ns.
+Proof. intros Hg Hj. assert (B : forall j, list_sum (map (fun n => Nat.min n j) ns) <= list_sum ns)
+    by (clear; intro j; unfold list_sum; induction ns; cbn [map fold_right]; lia).
+  specialize (B (S j)). pose proof (row_S ns j).
+  pose proof (column_S ns g (length ns) j Hg Hg Hj). rewrite firstn_all in H0. unfold rank. lia. Qed.
+
+(* Every rank below the number of all surfaces belongs to exactly one. *)
+Theorem deal_once ns g j g' j' : g < length ns -> j < nth g ns 0 -> g' < length ns -> j' < nth g' ns 0 ->
+  rank ns g j = rank ns g' j' -> g = g' /\ j = j'.
+Proof. intros. pose proof (rank_mono ns g j g' j'). pose proof (rank_mono ns g' j' g j). lia. Qed.
+Theorem deal_all ns i : i < list_sum ns -> exists g j, g < length ns /\ j < nth g ns 0 /\ rank ns g j = i.
+Proof. intro H.
+  assert (R : forall m, i < list_sum (map (fun n => Nat.min n m) ns) -> exists j,
+    list_sum (map (fun n => Nat.min n j) ns) <= i < list_sum (map (fun n => Nat.min n (S j)) ns)).
+  { induction m as [|m IH]; intro Hm.
+    - exfalso. revert Hm. clear. unfold list_sum. induction ns; cbn [map fold_right]; [lia|].
+      rewrite Nat.min_0_r. auto.
+    - destruct (le_lt_dec (list_sum (map (fun n => Nat.min n m) ns)) i); eauto. }
+  assert (T : forall m, list_sum ns <= m -> list_sum (map (fun n => Nat.min n m) ns) = list_sum ns).
+  { clear. unfold list_sum. induction ns as [|n ns IH]; intro m; cbn [map fold_right]; [lia|].
+    intro Hm. rewrite IH; lia. }
+  destruct (R (list_sum ns)) as (j & A & B); [now rewrite T|]. rewrite row_S in B.
+  assert (Q : forall r ms, r < length (filter (fun n => j <? n) ms) -> exists g, g < length ms /\
+    j < nth g ms 0 /\ length (filter (fun n => j <? n) (firstn g ms)) = r).
+  { clear. intros r ms. revert r. induction ms as [|n ms IH]; intros r Hr; cbn [filter length] in Hr; [lia|].
+    destruct (Nat.ltb_spec j n) as [L|L]; cbn [length] in Hr; [destruct r as [|r]|].
+    - exists 0. simpl. repeat split; auto; lia.
+    - destruct (IH r ltac:(lia)) as (g & X & Y & Z). exists (S g).
+      cbn [length nth firstn filter]. destruct (Nat.ltb_spec j n); cbn [length]; repeat split; auto; lia.
+    - destruct (IH r Hr) as (g & X & Y & Z). exists (S g).
+      cbn [length nth firstn filter]. destruct (Nat.ltb_spec j n); cbn [length]; repeat split; auto; lia. }
+  destruct (Q (i - list_sum (map (fun n => Nat.min n j) ns)) ns ltac:(lia)) as (g & X & Y & Z).
+  exists g, j. unfold rank. repeat split; auto. lia. Qed.
+
+Lemma safe_entries s : safe s <-> forall e, e < length s -> e + k <= C + entry s e.
+Proof. unfold entry. induction s as [|l s IH]; cbn [safe length rev]; [split; [lia|auto]|]. split.
+  - intros (A & B) e He. destruct (Nat.eq_dec e (length s)) as [->|].
+    + rewrite app_nth2, rev_length, Nat.sub_diag by (rewrite rev_length; lia). exact A.
+    + rewrite app_nth1 by (rewrite rev_length; lia). apply IH; auto. lia.
+  - intro H. split.
+    + specialize (H (length s) ltac:(lia)).
+      rewrite app_nth2, rev_length, Nat.sub_diag in H by (rewrite rev_length; lia). exact H.
+    + apply IH. intros e He. specialize (H e ltac:(lia)).
+      rewrite app_nth1 in H by (rewrite rev_length; lia). exact H. Qed.
+Lemma dealt_from ss ss' s' e : dealt ss ss' -> In s' ss' -> e < length s' ->
+  exists s j, In s ss /\ e <= j < length s /\ entry s' e = entry s j.
+Proof. intros (L & D) Hs He. apply (In_nth _ _ []) in Hs. destruct Hs as (g' & Hg' & <-).
+  rewrite L in Hg'. destruct (D g' e Hg' He) as (g & j & Hg & Hj & Q & ->).
+  exists (nth g ss []), j. repeat split; auto; [now apply nth_In|].
+  pose proof (deal_lowers (lengths ss) g j) as B. unfold lengths in *. rewrite map_length in B.
+  specialize (B Hg). now rewrite Q, Nat.mul_comm, Nat.div_add_l, Nat.div_small, Nat.add_0_r in B by lia. Qed.
+Lemma deal_safe ss ss' : Forall safe ss -> dealt ss ss' -> Forall safe ss'.
+Proof. intros F D. apply Forall_forall. intros s' Hs. apply safe_entries. intros e He.
+  destruct (dealt_from _ _ _ _ D Hs He) as (s & j & I & B & ->). rewrite Forall_forall in F.
+  pose proof (proj1 (safe_entries s) (F s I) j ltac:(lia)). lia. Qed.
+Lemma deal_levels ss ss' : Forall (Forall (fun x => x < k)) ss -> dealt ss ss' ->
+  Forall (Forall (fun x => x < k)) ss'.
+Proof. intros F D. apply Forall_forall. intros s' Hs. apply Forall_forall. intros l Hl.
+  apply in_rev in Hl. apply (In_nth _ _ 0) in Hl. destruct Hl as (e & He & <-). rewrite rev_length in He.
+  destruct (dealt_from _ _ _ _ D Hs He) as (s & j & I & B & Q). unfold entry in Q. rewrite Q.
+  rewrite Forall_forall in F. apply (proj1 (Forall_forall _ _) (F s I)), (proj2 (in_rev _ _)), nth_In.
+  rewrite rev_length. lia. Qed.
+
+(* Lemma 13: q roots may go below the surfaces s, all of level m and deeper. *)
+Definition may_give (q m : nat) (s : list nat) := Forall (fun x => m <= x) s /\ q + k <= C + 1 /\
+  (s <> [] -> q + length s + k <= C + 1 + m).
+Lemma give_safe q m s : may_give q m s -> safe (s ++ repeat 0 q).
+Proof. intros (F & Q & H). induction F as [|l s Hl F IH].
+  - clear H. cbn [app]. induction q; cbn [repeat safe]; auto. rewrite repeat_length. split; [lia|apply IHq; lia].
+  - specialize (H ltac:(discriminate)). cbn [app safe length] in *. rewrite app_length, repeat_length.
+    split; [lia|]. apply IH. intros _. lia. Qed.
+
+(* Theorem 14. Stacks need not be sorted any more. *)
+Inductive local (N G : nat) : nat -> list (list nat) -> Prop :=
+| local_start : local N G N (repeat [] G)
+| local_batch : forall w x y b r b', local N G w (x ++ (b ++ r) :: y) -> b <> [] ->
+    need b r <= length r -> expand b b' -> local N G w (x ++ (b' ++ r) :: y)
+| local_deal : forall w ss ss', local N G w ss -> dealt ss ss' -> local N G w ss'
+| local_give : forall w q m x y s, local N G (q + w) (x ++ s :: y) -> may_give q m s ->
+    local N G w (x ++ (s ++ repeat 0 q) :: y).
+
+Lemma local_correct N G w ss : local N G w ss -> Forall safe ss /\ Forall (Forall (fun x => x < k)) ss.
+Proof. induction 1 as [|w x y b r b' R (A & F) Hb H E|w ss ss' R (A & F) D|w q m x y s R (A & F) M].
+  - split; apply Forall_forall; intros s Hs; apply repeat_spec in Hs; subst; simpl; auto.
+  - apply Forall_app in A. apply Forall_app in F. destruct A as (Ax & A), F as (Fx & F).
+    inversion A; inversion F; subst. split; apply Forall_app; split; auto; constructor; auto.
+    + eapply safe_any; [|exact E]. apply need_enough; auto. eapply safe_app_r; eauto.
+    + eapply levels_lt; eauto.
+  - split; [eapply deal_safe|eapply deal_levels]; eauto.
+  - apply Forall_app in A. apply Forall_app in F. destruct A as (Ax & A), F as (Fx & F).
+    inversion A; inversion F; subst. split; apply Forall_app; split; auto; constructor; auto.
+    + eapply give_safe; eauto.
+    + apply Forall_app. split; auto. apply Forall_forall. intros l Hl. apply repeat_spec in Hl. lia. Qed.
+Theorem local_fits N G w ss : local N G w ss -> Forall (fun s => length s <= C) ss.
+Proof. intro R. destruct (local_correct _ _ _ _ R) as (A & F). apply Forall_forall. intros s Hs.
+  rewrite Forall_forall in A, F. apply safe_fits; auto. Qed.
+Theorem local_takes N G w ss s : local N G w ss -> In s ss -> s <> [] ->
+  let c := length s - base s in 1 <= c /\ need (firstn c s) (skipn c s) <= length (skipn c s).
+Proof. intros R Hs H c. destruct (local_correct _ _ _ _ R) as (A & _). rewrite Forall_forall in A.
+  specialize (A s Hs). pose proof (base_takes s A H). rewrite skipn_length.
+  pose proof (need_above s c A). unfold c, base in *. split; [lia|]. apply H1; lia. Qed.
+Theorem local_gives : k <= C -> may_give 1 0 [].
+Proof. intro H. repeat split; auto; [lia|congruence]. Qed.
 End Stack.
 
 (* Theorem 5 for batches of one and more: below k entries nothing works. *)
@@ -569,3 +719,9 @@ Print Assumptions roots_below_exact.
 Print Assumptions roots_base.
 Print Assumptions quick.
 Print Assumptions full_width.
+Print Assumptions deal_lowers.
+Print Assumptions deal_once.
+Print Assumptions deal_all.
+Print Assumptions local_fits.
+Print Assumptions local_takes.
+Print Assumptions local_gives.
