@@ -412,7 +412,7 @@ fn bench_along_a_path_has_a_row_a_view_and_names_the_spike() {
     let rows: Vec<serde_json::Value> =
         serde_json::from_slice(&std::fs::read(json).expect("rows")).expect("JSON");
     let frames: Vec<f64> = rows.iter().map(|row| row["frame"].as_f64().expect("a frame")).collect();
-    assert_eq!(frames, [[10.0; 5], [15.0; 5], [20.0; 5]].concat());
+    assert_eq!(frames, [[10.0; 7], [15.0; 7], [20.0; 7]].concat());
 
     let breadth = rows.iter().filter(|row| row["scheduler"] == "breadth");
     let spike = breadth.max_by_key(|row| row["memory"].as_u64()).expect("a row");
@@ -420,9 +420,9 @@ fn bench_along_a_path_has_a_row_a_view_and_names_the_spike() {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let said = text.lines().last().expect("a line");
     assert!(said.starts_with("spike view") && said.contains("frame 10,"), "{text}");
-    assert_eq!(text.lines().count(), 1 + 15 + 1, "{text}");
+    assert_eq!(text.lines().count(), 1 + 21 + 1, "{text}");
     let plot = std::fs::read_to_string(svg).expect("a plot");
-    for name in ["breadth", "bounded 64", "bounded 256", "adaptive 256", "frame", "memory, MiB"] {
+    for name in ["breadth", "bounded 64", "bounded 256", "local 64", "adaptive 256", "frame", "memory, MiB"] {
         assert!(plot.contains(name), "{name} is missing");
     }
 }

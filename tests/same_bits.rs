@@ -1,6 +1,7 @@
 //! Image and counts depend on nothing but scene and options: not on threads, batches, memory or the run.
 
-use micropoly::{Batch, FrameOptions, RenderOptions, Rendering, Scene, render};
+use micropoly::core::error::PlanError;
+use micropoly::{Batch, Error, FrameOptions, RenderOptions, Rendering, Scene, Scheduler, render};
 
 fn render_with(scene: &Scene, batch: Batch, threads: usize) -> Rendering {
     let frame = FrameOptions { width: 320, height: 180, ..FrameOptions::default() };
@@ -37,6 +38,71 @@ fn threads_batches_budgets_and_runs_do_not_matter() {
             assert_eq!(essence(&rendering), expected, "{name}: {budget} bytes");
             assert!(rendering.bytes_allocated <= budget, "{name}: {budget} bytes");
         }
+    }
+}
+
+#[test]
+fn schedulers_and_their_budgets_do_not_matter() {
+    for name in ["teapot", "eyesplit", "gregory"] {
+        let scene = Scene::load(format!("scenes/{name}.toml")).expect("a scene");
+        let frame = FrameOptions { width: 320, height: 180, ..FrameOptions::default() };
+        let with = |scheduler, batch, capacity| {
+            let options = RenderOptions { frame, scheduler, batch, capacity, ..RenderOptions::default() };
+            render(&scene, &options, |_| {})
+        };
+        let expected = essence(&with(Scheduler::Adaptive, Batch::default(), 0).expect("renders"));
+        for scheduler in Scheduler::ALL {
+            let largest = with(scheduler, Batch::default(), 0).expect("renders").bytes_allocated;
+            // Buffers of BREADTH grow, and are for a moment there twice.
+            let budgets = match scheduler {
+                Scheduler::Breadth => vec![2 * largest],
+                _ => {
+                    let smallest = smallest(&with, scheduler);
+                    vec![largest, (largest + smallest) / 2, smallest]
+                }
+            };
+            for budget in budgets {
+                let rendering = with(scheduler, Batch::Memory(budget), 0).expect("renders");
+                assert_eq!(essence(&rendering), expected, "{name}: {scheduler:?} in {budget} bytes");
+                assert!(rendering.bytes_allocated <= budget, "{name}: {scheduler:?} in {budget} bytes");
+            }
+        }
+        // However small the stack is: as many entries as levels, and patches + levels - 1.
+        let patches = scene.patch_count() as u32;
+        for capacity in [frame.levels, frame.levels + 1, patches + frame.levels - 1] {
+            for scheduler in [Scheduler::Adaptive, Scheduler::Local] {
+                let rendering = with(scheduler, Batch::default(), capacity).expect("renders");
+                assert_eq!(essence(&rendering), expected, "{name}: {scheduler:?} in {capacity} entries");
+                assert!(rendering.counts.max_stack <= u64::from(capacity), "{name}: {scheduler:?}");
+            }
+        }
+    }
+}
+
+/// The smallest budget of a scheduler: the one that an error names.
+fn smallest(
+    with: &dyn Fn(Scheduler, Batch, u32) -> micropoly::Result<Rendering>,
+    scheduler: Scheduler,
+) -> u64 {
+    match with(scheduler, Batch::Memory(1), 0) {
+        Err(Error::Plan(PlanError::Budget { needed, .. })) => needed,
+        other => {
+            panic!("one byte was enough, or another error: {:?}", other.map(|rendering| rendering.sizes))
+        }
+    }
+}
+
+#[test]
+fn local_groups_have_equal_loads() {
+    for (name, batch) in [("eyesplit", 1024), ("eyesplit", 4096), ("city", 4096)] {
+        let scene = Scene::load(format!("scenes/{name}.toml")).expect("a scene");
+        let frame = FrameOptions { rate: 1, ..FrameOptions::default() };
+        let (scheduler, batch) = (Scheduler::Local, Batch::Surfaces(batch));
+        let options = RenderOptions { frame, scheduler, batch, ..RenderOptions::default() };
+        let rendering = render(&scene, &options, |_| {}).expect("renders");
+        let load = rendering.counts.load.expect("groups");
+        assert_eq!(load.total, rendering.counts.processed, "{name}");
+        assert!(load.groups > 1 && load.imbalance() < 0.1, "{name}: {load:?}");
     }
 }
 
