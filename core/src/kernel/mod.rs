@@ -11,6 +11,7 @@ pub mod quads;
 pub mod sample;
 pub mod scan;
 pub mod seam;
+pub mod seam_gregory;
 pub mod seed;
 pub mod shade;
 pub mod split;
