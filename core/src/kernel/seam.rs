@@ -35,13 +35,12 @@ pub fn seams(net: &Net, frame: &Frame, surface: Surface) -> [Seam; 4] {
 #[inline(always)]
 pub(super) fn seam(net: &Net, frame: &Frame, border: Border) -> Seam {
     let longest = longest_chord(frame, &border.curve(net), border);
-    let chord = match border.chord_beyond(frame, longest) {
-        None => None,
-        Some([low, high]) => Some([low, high].map(|t| {
+    let chord = border.chord_beyond(frame, longest).map(|ends| {
+        ends.map(|t| {
             let (u, v) = border.at(t);
             position_at(net, u, v)
-        })),
-    };
+        })
+    });
     Seam { longest, chord }
 }
 
