@@ -22,9 +22,11 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 40;
+pub const ROUNDS: u64 = 48;
 /// From this one on the draw stage is given what chance seldom brings about.
 const RARE: u64 = 32;
+/// From this one on it is given Gregory patches whose lines seem short.
+const SHORT: u64 = 40;
 
 fn words<T: NoUninit>(entries: &[T]) -> Vec<u32> {
     bytemuck::cast_slice::<T, u8>(entries)
@@ -248,6 +250,36 @@ fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
     record
 }
 
+/// A Gregory patch whose line v = 1/2, or u = 1/2, seems short from end to end, because the control points of the
+/// net that follows the blends along it are near each other, though its middle is far away.
+fn short(random: &mut fastrand::Rng) -> [Patch; 2] {
+    let (along_u, far) = (random.bool(), random.f32() * 4.0 - 2.0);
+    let [mut patch, mut record] = [Patch::default(); 2];
+    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+        let k = if along_u { 4 * i + j } else { 4 * j + i };
+        // Along the line the shares that the net has are 7/9.
+        let away = if j % 3 == 0 { -7.0 / 3.0 } else { 0.5 };
+        patch.x[k] = if i % 3 == 0 { 0.0 } else { away * far };
+        patch.y[k] = j as f32 / 1.5 - 1.0;
+        patch.z[k] = random.f32() * 0.02;
+    }
+    for l in 0..8 {
+        record.x[l] = if (l < 4) == along_u { far } else { 0.0 };
+        (record.y[l], record.z[l]) = (patch.y[INNER[l % 4]], patch.z[INNER[l % 4]]);
+    }
+    [patch, record]
+}
+
+fn short_patches(random: &mut fastrand::Rng) -> Vec<Patch> {
+    let (mut patches, records): (Vec<Patch>, Vec<Patch>) =
+        (0..PATCHES).map(|_| short(random)).map(|[patch, record]| (patch, record)).unzip();
+    for (patch, place) in patches.iter_mut().zip(PATCHES..) {
+        patch.faces = place;
+    }
+    patches.extend(records);
+    patches
+}
+
 fn bounds(random: &mut fastrand::Rng) -> Parts {
     let (frame, objects, patches) = scene(random);
     let (base, held) = (random.u32(0..300), random.u32(0..2000));
@@ -330,9 +362,13 @@ fn ribbons(frame: &Frame, object: &mut Object) {
 }
 
 fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
-    let (mut frame, mut objects, patches) = scene(random);
+    let (mut frame, mut objects, mut patches) = scene(random);
     let mut splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
-    if round >= RARE {
+    if round >= SHORT {
+        patches = short_patches(random);
+        frame.rate = 1 << (round % 2);
+        splits = 2..=7;
+    } else if round >= RARE {
         splits = rarely(&mut frame, round);
         if round % 4 == 2 {
             (splits, frame.rate) = (0..=0, 1);

@@ -1,12 +1,15 @@
 // Mirrors core/src/kernel/dice.rs: a drawn surface becomes a grid of vertices, each a pure function of patch
 // and dyadic parameter. A work-group dices one grid; its work-items share out curves, then vertices.
 #define SIDE (MAX_RATE + 1u)
+// For functions that are called from several places and always with the same local memory: where that makes its
+// address a constant in them, PoCL 3.1 loses it.
+#define INLINED static __attribute__((always_inline))
 
-// How one border of a grid is closed; the ends of `chord`, as u and v, count only where `has_chord` is not 0.
+// How one border of a grid is closed; the ends of `chord` count only where `has_chord` is not 0.
 typedef struct {
     uint longest;
     uint has_chord;
-    uint2 chord[2];
+    float3 chord[2];
 } Seam;
 
 // What all vertices of a grid share, and what is found out about them all.
@@ -21,6 +24,8 @@ typedef struct {
     float net[48];
     // Eye-space face points of a Gregory patch: coordinate k of point l at 8 k + l.
     float faces[24];
+    // Not 0 if it is one.
+    uint is_gregory;
     // Tangents no longer than this have vanished.
     float flat_length;
     Seam seams[4];
@@ -90,7 +95,7 @@ static float3 blend_across(uint zero, const IsoCurve *curve, float4 weights) {
                     blend4(zero, weights, curve->across[2]));
 }
 
-static float3 position_at(uint zero, __local const float *net, uint u, uint v) {
+INLINED float3 position_at(uint zero, __local const float *net, uint u, uint v) {
     const float4 row = cubic(zero, param(zero, v)), weights = cubic(zero, param(zero, u));
     return (float3)(blend4(zero, weights, curve_point(zero, coordinate(net, 0u), row)),
                     blend4(zero, weights, curve_point(zero, coordinate(net, 1u), row)),

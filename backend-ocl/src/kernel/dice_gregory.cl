@@ -28,13 +28,19 @@ static float4 inner_weights(uint zero, float4 cubic_u, float4 cubic_v) {
                     mul(cubic_u.z, cubic_v.z));
 }
 
+// The inner points at these shares, one coordinate.
+static float4 inner_points(uint zero, __local const float *f, float4 share) {
+    const float4 of_v = vload4(1, f);
+    return add4(zero, of_v, mul4(zero, sub4(zero, vload4(0, f), of_v), share));
+}
+
 // A coordinate of a point and of its derivatives along u and along v; `c` and `f` are the net's and the faces'.
 static float3 gregory_coordinate(uint zero, __local const float *c, __local const float *f, float u, float v,
                                  float4 share, float4 along_u, float4 along_v) {
     const float4 cubic_u = cubic(zero, u), cubic_v = cubic(zero, v);
     const float3 slope_u = cubic_slope(zero, u), slope_v = cubic_slope(zero, v);
-    const float4 of_v = vload4(1, f), differences = sub4(zero, vload4(0, f), of_v);
-    const float4 inside = add4(zero, of_v, mul4(zero, differences, share));
+    const float4 differences = sub4(zero, vload4(0, f), vload4(1, f));
+    const float4 inside = inner_points(zero, f, share);
     const float4 moved = mul4(zero, differences, inner_weights(zero, cubic_u, cubic_v));
     const float4 row0 = vload4(0, c), row3 = vload4(3, c);
     const float4 row1 = (float4)(c[4], inside.x, inside.y, c[7]);
@@ -49,12 +55,11 @@ static float3 gregory_coordinate(uint zero, __local const float *c, __local cons
                     add(blend4(zero, cubic_u, across), change(zero, along_v, moved)));
 }
 
-// Position of one vertex, and the derivatives there along u and along v.
-static void evaluate_gregory(__constant Frame *frame, Surface surface, __local const Grid *grid, uint row,
-                             uint column, float3 *position, float3 *du, float3 *dv) {
+// Position at a parameter, and the derivatives there along u and along v.
+INLINED void evaluate_gregory(__constant Frame *frame, __local const Grid *grid, uint2 place, float3 *position,
+                              float3 *du, float3 *dv) {
     const uint zero = frame->zero;
-    const float u = param(zero, surface.u + column * (u_size(surface) >> rate_bits(frame)));
-    const float v = param(zero, surface.v + row * (v_size(surface) >> rate_bits(frame)));
+    const float u = param(zero, place.x), v = param(zero, place.y);
     const float3 a = blend_here(frame, 0u, u, v), b = blend_here(frame, 1u, u, v);
     const float3 c = blend_here(frame, 2u, u, v), d = blend_here(frame, 3u, u, v);
     const float4 share = (float4)(a.x, b.x, c.x, d.x);
@@ -67,4 +72,25 @@ static void evaluate_gregory(__constant Frame *frame, Surface surface, __local c
     *position = (float3)(x.x, y.x, z.x);
     *du = (float3)(x.y, y.y, z.y);
     *dv = (float3)(x.z, y.z, z.z);
+}
+
+INLINED float3 position_any(__constant Frame *frame, __local const Grid *grid, uint2 place) {
+    if (!grid->is_gregory) {
+        return position_at(frame->zero, grid->net, place.x, place.y);
+    }
+    float3 position, du, dv;
+    evaluate_gregory(frame, grid, place, &position, &du, &dv);
+    return position;
+}
+
+// Position of one vertex of a grid, and the derivatives there.
+static void evaluate_any(__constant Frame *frame, Surface surface, __local const Grid *grid, uint row, uint column,
+                         float3 *position, float3 *du, float3 *dv) {
+    if (grid->is_gregory) {
+        const uint u = surface.u + column * (u_size(surface) >> rate_bits(frame));
+        const uint v = surface.v + row * (v_size(surface) >> rate_bits(frame));
+        evaluate_gregory(frame, grid, (uint2)(u, v), position, du, dv);
+    } else {
+        evaluate(frame, grid, row, column, position, du, dv);
+    }
 }

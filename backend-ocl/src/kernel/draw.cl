@@ -30,6 +30,7 @@ static void prepare(__constant Frame *frame, __global const Object *object, __gl
     }
     if (lane == GROUP - 1u) {
         clear_measures(grid);
+        grid->is_gregory = patch->faces != 0u;
     }
     for (uint column = lane; column <= frame->rate; column += GROUP) {
         prepare_column(frame, surface, grid, column);
@@ -40,7 +41,7 @@ static void prepare(__constant Frame *frame, __global const Object *object, __gl
     }
     if (lane >= GROUP - 4u) {
         const uint border = lane + 4u - GROUP;
-        grid->seams[border] = seam_of(frame, grid->net, surface, border);
+        put_seam(frame, grid, surface, border);
     }
     if (lane == GROUP - 5u) {
         grid->flat_length = mul(size(zero, grid->net), FLAT);
@@ -50,25 +51,20 @@ static void prepare(__constant Frame *frame, __global const Object *object, __gl
 // The ends of the chords beyond the borders; where there is none, nothing reads them.
 static void put_ends(__constant Frame *frame, __local Grid *grid, __global uint *grids, uint base, uint lane) {
     if (lane < ENDS && grid->seams[lane / 2u].has_chord != 0u) {
-        const uint2 place = grid->seams[lane / 2u].chord[lane % 2u];
-        const Vertex end = project(frame, position_at(frame->zero, grid->net, place.x, place.y));
+        const Vertex end = project(frame, grid->seams[lane / 2u].chord[lane % 2u]);
         put_screen(frame, grids, base, vertices(frame) + lane, end);
         measure(grid, end);
     }
 }
 
 // Vertices and their colours.
-static void dice_and_shade(__constant Frame *frame, __global const Object *object, bool is_gregory,
-                           Surface surface, __local Grid *grid, __global uint *grids, uint base, uint lane) {
+static void dice_and_shade(__constant Frame *frame, __global const Object *object, Surface surface,
+                           __local Grid *grid, __global uint *grids, uint base, uint lane) {
     const uint stride = frame->rate + 1u;
     for (uint at = lane; at < vertices(frame); at += GROUP) {
         const uint row = at / stride, column = at % stride;
         float3 position, du, dv;
-        if (is_gregory) {
-            evaluate_gregory(frame, surface, grid, row, column, &position, &du, &dv);
-        } else {
-            evaluate(frame, grid, row, column, &position, &du, &dv);
-        }
+        evaluate_any(frame, surface, grid, row, column, &position, &du, &dv);
         const float3 normal = normal_from(frame, surface, grid, row, column, du, dv);
         const Vertex vertex = project(frame, position);
         measure(grid, vertex);
@@ -153,7 +149,7 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     }
     prepare(frame, object, patch, patches + patch->faces, surface, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    dice_and_shade(frame, object, patch->faces != 0u, surface, &grid, grids, base, lane);
+    dice_and_shade(frame, object, surface, &grid, grids, base, lane);
     put_ends(frame, &grid, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
     seek_faces(frame, &grid, grids, base, lane);

@@ -1,16 +1,65 @@
 // Mirrors core/src/kernel/seam.rs: slivers that close the gap where a border meets a coarser one.
 
-static bool may_be_drawn(__constant Frame *frame, const float4 *curve, uint start, uint size) {
-    const uint zero = frame->zero;
+// One border of a surface: along it one parameter is fixed, and the other runs through a range.
+typedef struct {
+    bool along_u;
+    uint at; // the parameter that is fixed
+    uint start;
+    uint size;
+} Border;
+
+// Borders v = low, v = high, u = low and u = high.
+static Border border_of(Surface surface, uint number) {
+    const uint size_u = u_size(surface), size_v = v_size(surface);
+    const uint high = number & 1u;
+    if (number < 2u) {
+        const Border border = {true, surface.v + high * size_v, surface.u, size_u};
+        return border;
+    }
+    const Border border = {false, surface.u + high * size_u, surface.v, size_v};
+    return border;
+}
+
+// The same border of the surface of this size that contains it.
+static Border ancestor(Border border, uint size) {
+    border.start &= ~(size - 1u);
+    border.size = size;
+    return border;
+}
+
+// The parameters u and v where the one that runs is `t`.
+static uint2 place_on(Border border, uint t) {
+    return border.along_u ? (uint2)(t, border.at) : (uint2)(border.at, t);
+}
+
+// Control points of a curve along u or along v, one coordinate, from the rows of a net.
+static float4 border_curve(uint zero, Border border, float4 a, float4 b, float4 c, float4 d) {
+    const float4 weights = cubic(zero, param(zero, border.at));
+    if (border.along_u) {
+        return (float4)(blend4(zero, weights, a), blend4(zero, weights, b), blend4(zero, weights, c),
+                        blend4(zero, weights, d));
+    }
+    return (float4)(
+        blend4(zero, weights, (float4)(a.x, b.x, c.x, d.x)), blend4(zero, weights, (float4)(a.y, b.y, c.y, d.y)),
+        blend4(zero, weights, (float4)(a.z, b.z, c.z, d.z)), blend4(zero, weights, (float4)(a.w, b.w, c.w, d.w)));
+}
+
+// Control points of the part of such a curve that is the border.
+static void part_of(uint zero, Border border, const float4 *curve, float4 *part) {
     float4 weights[4];
+    blossom(zero, border.start, border.start + border.size, weights);
+    for (uint k = 0u; k < 3u; k++) {
+        part[k] = (float4)(blend4(zero, weights[0], curve[k]), blend4(zero, weights[1], curve[k]),
+                           blend4(zero, weights[2], curve[k]), blend4(zero, weights[3], curve[k]));
+    }
+}
+
+static bool is_short(__constant Frame *frame, const float4 *part) {
+    const uint zero = frame->zero;
     float x[4], y[4];
-    bool nearer = false;
-    blossom(zero, start, start + size, weights);
     for (uint k = 0u; k < 4u; k++) {
-        const float3 point = (float3)(blend4(zero, weights[k], curve[0]), blend4(zero, weights[k], curve[1]),
-                                      blend4(zero, weights[k], curve[2]));
-        nearer = nearer || neg(point.z) < frame->near;
-        const float3 seen = perspective(frame, point);
+        const float3 seen = perspective(
+            frame, (float3)(component(part[0], k), component(part[1], k), component(part[2], k)));
         x[k] = clamp(seen.x, neg(FAR_OFF), FAR_OFF);
         y[k] = clamp(seen.y, neg(FAR_OFF), FAR_OFF);
     }
@@ -18,61 +67,39 @@ static bool may_be_drawn(__constant Frame *frame, const float4 *curve, uint star
     for (uint k = 0u; k < 3u; k++) {
         length = add(length, segment(zero, x, y, k, k + 1u));
     }
-    return !nearer && length <= mul(frame->bound, SEAM_ALLOWANCE);
+    return length <= mul(frame->bound, SEAM_ALLOWANCE);
 }
 
-// The longest chord, and half of the chord that has the border's end in its middle, or 0.
-static uint2 longest_chord(__constant Frame *frame, const float4 *curve, uint start, uint size) {
-    uint longest = 1u, ancestor = 2u * size;
-    while (ancestor <= PARAM_ONE && may_be_drawn(frame, curve, start & ~(ancestor - 1u), ancestor)) {
-        longest *= 2u;
-        ancestor *= 2u;
-    }
-    const uint end = start + size;
-    const uint half_chord = end & (0u - end);
-    const uint steps = 2u * half_chord / (size / frame->rate);
-    const bool inside = end != PARAM_ONE && steps > frame->rate && steps <= longest;
-    return (uint2)(longest, inside ? half_chord : 0u);
+static bool may_be_drawn(__constant Frame *frame, const float4 *part) {
+    const float4 z = part[2];
+    const bool nearer = neg(z.x) < frame->near || neg(z.y) < frame->near || neg(z.z) < frame->near
+        || neg(z.w) < frame->near;
+    return !nearer && is_short(frame, part);
 }
 
-static Seam seam_along_u(__constant Frame *frame, __local const float *net, uint u, uint size, uint v) {
+static uint longest_chord(__constant Frame *frame, __local const float *net, Border border) {
     const uint zero = frame->zero;
-    const float4 weights = cubic(zero, param(zero, v));
-    float4 curve[3];
-    for (uint k = 0u; k < 3u; k++) {
-        curve[k] = curve_point(zero, coordinate(net, k), weights);
-    }
-    const uint2 found = longest_chord(frame, curve, u, size);
-    const uint end = u + size;
-    const Seam seam = {found.x, found.y, {(uint2)(end - found.y, v), (uint2)(end + found.y, v)}};
-    return seam;
-}
-
-static float4 column_of(__local const float *c, uint j) {
-    return (float4)(c[j], c[4u + j], c[8u + j], c[12u + j]);
-}
-
-static Seam seam_along_v(__constant Frame *frame, __local const float *net, uint u, uint v, uint size) {
-    const uint zero = frame->zero;
-    const float4 weights = cubic(zero, param(zero, u));
-    float4 curve[3];
+    float4 curve[3], part[3];
     for (uint k = 0u; k < 3u; k++) {
         __local const float *c = coordinate(net, k);
-        curve[k] = (float4)(blend4(zero, weights, column_of(c, 0u)), blend4(zero, weights, column_of(c, 1u)),
-                            blend4(zero, weights, column_of(c, 2u)), blend4(zero, weights, column_of(c, 3u)));
+        curve[k] = border_curve(zero, border, vload4(0, c), vload4(1, c), vload4(2, c), vload4(3, c));
     }
-    const uint2 found = longest_chord(frame, curve, v, size);
-    const uint end = v + size;
-    const Seam seam = {found.x, found.y, {(uint2)(u, end - found.y), (uint2)(u, end + found.y)}};
-    return seam;
+    uint longest = 1u;
+    for (uint size = 2u * border.size; size <= PARAM_ONE; size *= 2u) {
+        part_of(zero, ancestor(border, size), curve, part);
+        if (!may_be_drawn(frame, part)) {
+            break;
+        }
+        longest *= 2u;
+    }
+    return longest;
 }
 
-// The seam along one of the borders v = low, v = high, u = low and u = high.
-static Seam seam_of(__constant Frame *frame, __local const float *net, Surface surface, uint border) {
-    const uint size_u = u_size(surface), size_v = v_size(surface);
-    const uint high = border & 1u;
-    if (border < 2u) {
-        return seam_along_u(frame, net, surface.u, size_u, surface.v + high * size_v);
-    }
-    return seam_along_v(frame, net, surface.u + high * size_u, surface.v, size_v);
+// Half of the chord that has the border's end in its middle, or 0.
+static uint chord_beyond(__constant Frame *frame, Border border, uint longest) {
+    const uint end = border.start + border.size;
+    const uint half_chord = end & (0u - end);
+    const uint steps = 2u * half_chord / (border.size / frame->rate);
+    const bool inside = end != PARAM_ONE && steps > frame->rate && steps <= longest;
+    return inside ? half_chord : 0u;
 }

@@ -39,12 +39,11 @@ fn steps(p: vec4<f32>) -> vec3<f32> {
 
 // Control points of the curve v = constant, one coordinate.
 fn curve_point(k: u32, weights: vec4<f32>) -> vec4<f32> {
-    return vec4<f32>(
-        blend4(weights, net_row(k, 0u)),
-        blend4(weights, net_row(k, 1u)),
-        blend4(weights, net_row(k, 2u)),
-        blend4(weights, net_row(k, 3u)),
-    );
+    return blend_rows(weights, net_row(k, 0u), net_row(k, 1u), net_row(k, 2u), net_row(k, 3u));
+}
+
+fn blend_rows(weights: vec4<f32>, a: vec4<f32>, b: vec4<f32>, c: vec4<f32>, d: vec4<f32>) -> vec4<f32> {
+    return vec4<f32>(blend4(weights, a), blend4(weights, b), blend4(weights, c), blend4(weights, d));
 }
 
 // Derivatives across that curve at its control points, one coordinate.

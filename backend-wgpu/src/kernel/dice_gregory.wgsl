@@ -19,7 +19,16 @@ fn evaluate_any(surface: Surface, row: u32, column: u32) -> Evaluated {
     if record == 0u {
         return evaluate(row, column);
     }
-    return evaluate_gregory(surface, row, column);
+    let u = surface.u + column * (u_size(surface) / frame.rate);
+    let v = surface.v + row * (v_size(surface) / frame.rate);
+    return evaluate_gregory(u, v);
+}
+
+fn position_any(u: u32, v: u32) -> vec3<f32> {
+    if record == 0u {
+        return position_at(u, v);
+    }
+    return evaluate_gregory(u, v).point;
 }
 
 fn blend_here(m: u32, u: f32, v: f32) -> Blend {
@@ -30,9 +39,9 @@ fn blend_here(m: u32, u: f32, v: f32) -> Blend {
 }
 
 // A point of a patch and its derivatives; the derivatives are the true ones, those of the blends included.
-fn evaluate_gregory(surface: Surface, row: u32, column: u32) -> Evaluated {
-    let u = param(surface.u + column * (u_size(surface) / frame.rate));
-    let v = param(surface.v + row * (v_size(surface) / frame.rate));
+fn evaluate_gregory(at_u: u32, at_v: u32) -> Evaluated {
+    let u = param(at_u);
+    let v = param(at_v);
     let a = blend_here(0u, u, v);
     let b = blend_here(1u, u, v);
     let c = blend_here(2u, u, v);
@@ -52,6 +61,14 @@ fn face_pair(k: u32, m: u32) -> vec2<f32> {
     return vec2<f32>(of_v, sub(faces[8u * k + m], of_v));
 }
 
+// Row 1 or 2 of the net that the patch has at these shares of its inner points, one coordinate.
+fn row_at(k: u32, i: u32, low: f32, high: f32) -> vec4<f32> {
+    let outer = net_row(k, i);
+    let a = face_pair(k, 2u * i - 2u);
+    let b = face_pair(k, 2u * i - 1u);
+    return vec4<f32>(outer.x, add(a.x, mul(a.y, low)), add(b.x, mul(b.y, high)), outer.w);
+}
+
 fn gregory_coordinate(
     k: u32, u: f32, v: f32, shares: vec4<f32>, along_u: vec4<f32>, along_v: vec4<f32>,
 ) -> vec3<f32> {
@@ -64,21 +81,16 @@ fn gregory_coordinate(
     let c = face_pair(k, 2u);
     let d = face_pair(k, 3u);
     let row0 = net_row(k, 0u);
-    let outer1 = net_row(k, 1u);
-    let outer2 = net_row(k, 2u);
+    let row1 = row_at(k, 1u, shares.x, shares.y);
+    let row2 = row_at(k, 2u, shares.z, shares.w);
     let row3 = net_row(k, 3u);
-    let row1 = vec4<f32>(
-        outer1.x, add(a.x, mul(a.y, shares.x)), add(b.x, mul(b.y, shares.y)), outer1.w);
-    let row2 = vec4<f32>(
-        outer2.x, add(c.x, mul(c.y, shares.z)), add(d.x, mul(d.y, shares.w)), outer2.w);
     let moved = vec4<f32>(
         mul(a.y, mul(cubic_u.y, cubic_v.y)),
         mul(b.y, mul(cubic_u.y, cubic_v.z)),
         mul(c.y, mul(cubic_u.z, cubic_v.y)),
         mul(d.y, mul(cubic_u.z, cubic_v.z)),
     );
-    let curve = vec4<f32>(
-        blend4(cubic_v, row0), blend4(cubic_v, row1), blend4(cubic_v, row2), blend4(cubic_v, row3));
+    let curve = blend_rows(cubic_v, row0, row1, row2, row3);
     let across = vec4<f32>(
         blend3(slope_v, steps(row0)),
         blend3(slope_v, steps(row1)),

@@ -13,51 +13,64 @@ struct Curve {
     z: vec4<f32>,
 }
 
-// What `longest_chord` found: steps, and the chord's range if `has_chord` is not 0.
-struct Chord {
-    longest: u32,
-    has_chord: u32,
-    low: u32,
-    high: u32,
+// One border of a surface: along it one parameter is fixed, and the other runs through a range.
+struct Border {
+    along_u: bool,
+    // The parameter that is fixed.
+    at: u32,
+    start: u32,
+    size: u32,
 }
 
-fn seam(surface: Surface, border: u32) {
-    let along_u = border < 2u;
+fn seam(surface: Surface, number: u32) {
+    let border = border_of(surface, number);
+    let longest = longest_any(border);
+    let half = chord_beyond(border, longest);
+    seam_longest[number] = longest;
+    seam_chord[number] = 0u;
+    if half != 0u {
+        let end = border.start + border.size;
+        let low = chord_point(border, end - half);
+        let high = chord_point(border, end + half);
+        seam_ends[2u * number] = project(low);
+        seam_ends[2u * number + 1u] = project(high);
+        seam_chord[number] = select(0u, 1u, are_in_reach(border, low, high));
+    }
+}
+
+fn border_of(surface: Surface, number: u32) -> Border {
     let size_u = u_size(surface);
     let size_v = v_size(surface);
-    let u = surface.u + select(border - 2u, 0u, along_u) * size_u;
-    let v = surface.v + select(0u, border, along_u) * size_v;
-    var found: Chord;
-    if along_u {
-        found = longest_chord(border_along_u(v), u, size_u);
-    } else {
-        found = longest_chord(border_along_v(u), v, size_v);
+    if number < 2u {
+        return Border(true, surface.v + number * size_v, surface.u, size_u);
     }
-    seam_longest[border] = found.longest;
-    seam_chord[border] = found.has_chord;
-    if found.has_chord != 0u {
-        seam_ends[2u * border] = project(position_at(select(u, found.low, along_u), select(found.low, v, along_u)));
-        seam_ends[2u * border + 1u] =
-            project(position_at(select(u, found.high, along_u), select(found.high, v, along_u)));
-    }
+    return Border(false, surface.u + (number - 2u) * size_u, surface.v, size_v);
 }
 
-fn border_along_u(v: u32) -> Curve {
-    let weights = cubic(param(v));
-    return Curve(curve_point(0u, weights), curve_point(1u, weights), curve_point(2u, weights));
+// The same border of the surface of this size that contains it.
+fn ancestor(border: Border, size: u32) -> Border {
+    return Border(border.along_u, border.at, border.start & ~(size - 1u), size);
 }
 
-fn border_along_v(u: u32) -> Curve {
-    let weights = cubic(param(u));
+fn chord_point(border: Border, t: u32) -> vec3<f32> {
+    return position_any(select(border.at, t, border.along_u), select(t, border.at, border.along_u));
+}
+
+// The curve of the net that a border lies on.
+fn border_curve(border: Border) -> Curve {
+    let weights = cubic(param(border.at));
+    if border.along_u {
+        return Curve(curve_point(0u, weights), curve_point(1u, weights), curve_point(2u, weights));
+    }
     return Curve(curve_along_v(0u, weights), curve_along_v(1u, weights), curve_along_v(2u, weights));
 }
 
 // Control points of the curve u = constant, one coordinate.
 fn curve_along_v(k: u32, weights: vec4<f32>) -> vec4<f32> {
-    let a = net_row(k, 0u);
-    let b = net_row(k, 1u);
-    let c = net_row(k, 2u);
-    let d = net_row(k, 3u);
+    return blend_columns(weights, net_row(k, 0u), net_row(k, 1u), net_row(k, 2u), net_row(k, 3u));
+}
+
+fn blend_columns(weights: vec4<f32>, a: vec4<f32>, b: vec4<f32>, c: vec4<f32>, d: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(
         blend4(weights, vec4<f32>(a.x, b.x, c.x, d.x)),
         blend4(weights, vec4<f32>(a.y, b.y, c.y, d.y)),
@@ -66,41 +79,60 @@ fn curve_along_v(k: u32, weights: vec4<f32>) -> vec4<f32> {
     );
 }
 
-fn longest_chord(curve: Curve, start: u32, size: u32) -> Chord {
-    var longest = 1u;
-    var ancestor = 2u * size;
-    while ancestor <= PARAM_ONE && may_be_drawn(curve, start & ~(ancestor - 1u), ancestor) {
-        longest *= 2u;
-        ancestor *= 2u;
-    }
-    let end = start + size;
-    let half = end & (0u - end);
-    let steps = 2u * half / (size / frame.rate);
-    let inside = end != PARAM_ONE && steps > frame.rate && steps <= longest;
-    if inside {
-        return Chord(longest, 1u, end - half, end + half);
-    }
-    return Chord(longest, 0u, 0u, 0u);
+// Control points of the part of such a curve that is the border.
+fn part_of(border: Border, curve: Curve) -> Curve {
+    let weights = blossom(border.start, border.start + border.size);
+    return Curve(part_along(weights, curve.x), part_along(weights, curve.y), part_along(weights, curve.z));
 }
 
-fn may_be_drawn(curve: Curve, start: u32, size: u32) -> bool {
-    var weights = blossom(start, start + size);
-    var length = 0.0;
-    var nearer = false;
-    var before = vec2<f32>(0.0, 0.0);
-    for (var k = 0u; k < 4u; k++) {
-        let w = weights.rows[k];
-        let point = vec3<f32>(blend4(w, curve.x), blend4(w, curve.y), blend4(w, curve.z));
-        nearer = nearer || neg(point.z) < frame.near;
-        let seen = perspective(point);
-        let here =
-            vec2<f32>(clamp(seen.x, neg(FAR_OFF), FAR_OFF), clamp(seen.y, neg(FAR_OFF), FAR_OFF));
-        if k > 0u {
-            length = add(length, distance_between(before, here));
-        }
-        before = here;
+fn part_along(weights: Blossom, c: vec4<f32>) -> vec4<f32> {
+    return vec4<f32>(
+        blend4(weights.rows[0], c),
+        blend4(weights.rows[1], c),
+        blend4(weights.rows[2], c),
+        blend4(weights.rows[3], c),
+    );
+}
+
+// Half of the chord that has the border's end in its middle, or 0.
+fn chord_beyond(border: Border, longest: u32) -> u32 {
+    let end = border.start + border.size;
+    let half = end & (0u - end);
+    let steps = 2u * half / (border.size / frame.rate);
+    let inside = end != PARAM_ONE && steps > frame.rate && steps <= longest;
+    return select(0u, half, inside);
+}
+
+fn longest_chord(border: Border) -> u32 {
+    let curve = border_curve(border);
+    var longest = 1u;
+    var size = 2u * border.size;
+    while size <= PARAM_ONE && may_be_drawn(part_of(ancestor(border, size), curve)) {
+        longest *= 2u;
+        size *= 2u;
     }
-    return !nearer && length <= mul(frame.bound, SEAM_ALLOWANCE);
+    return longest;
+}
+
+fn may_be_drawn(part: Curve) -> bool {
+    let z = part.z;
+    let nearer = neg(z.x) < frame.near || neg(z.y) < frame.near || neg(z.z) < frame.near
+        || neg(z.w) < frame.near;
+    return !nearer && is_short(part);
+}
+
+fn is_short(part: Curve) -> bool {
+    let a = seen_at(part.x.x, part.y.x, part.z.x);
+    let b = seen_at(part.x.y, part.y.y, part.z.y);
+    let c = seen_at(part.x.z, part.y.z, part.z.z);
+    let d = seen_at(part.x.w, part.y.w, part.z.w);
+    let length = add(add(add(0.0, distance_between(a, b)), distance_between(b, c)), distance_between(c, d));
+    return length <= mul(frame.bound, SEAM_ALLOWANCE);
+}
+
+fn seen_at(x: f32, y: f32, z: f32) -> vec2<f32> {
+    let seen = perspective(vec3<f32>(x, y, z));
+    return vec2<f32>(clamp(seen.x, neg(FAR_OFF), FAR_OFF), clamp(seen.y, neg(FAR_OFF), FAR_OFF));
 }
 
 fn distance_between(a: vec2<f32>, b: vec2<f32>) -> f32 {

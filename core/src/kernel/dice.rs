@@ -88,7 +88,7 @@ impl Grid {
 /// `net` is the patch's control net in eye space.
 #[inline(always)]
 pub fn dice(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
-    prepare_grid(net, frame, surface, grid);
+    prepare_grid(frame, seams(net, frame, surface), grid);
     let rate = frame.rate;
     let (step_u, step_v) = (surface.u_size() / rate, surface.v_size() / rate);
     let mut columns = [Weights::<LANES>::ZERO; BLOCKS];
@@ -109,9 +109,9 @@ pub fn dice(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
 
 /// What a grid has before its vertices: their number and the seams.
 #[inline(always)]
-pub(super) fn prepare_grid(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
+pub(super) fn prepare_grid(frame: &Frame, seams: [Seam; 4], grid: &mut Grid) {
     grid.stride = frame.rate as usize + 1;
-    grid.seams = seams(net, frame, surface);
+    grid.seams = seams;
 }
 
 /// Normals and snapped vertices, from positions and tangents.

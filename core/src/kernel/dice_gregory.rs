@@ -3,6 +3,7 @@
 
 use crate::abi::{FLAG_WEBER, Frame, Surface};
 use crate::kernel::dice::{Grid, LANES, finish_grid, prepare_grid, store};
+use crate::kernel::seam_gregory::seams_gregory;
 use crate::num::{add, mul, scale3, sub};
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
 use crate::patch::gregory::{Blend, INNER, blends, weber_blends};
@@ -11,7 +12,7 @@ use crate::patch::{Faces, Net};
 /// Fills positions, normals and snapped vertices of a surface of a Gregory patch, as
 /// [`crate::kernel::dice::dice`] does of a Bézier patch.
 pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, surface: Surface, grid: &mut Grid) {
-    prepare_grid(net, frame, surface, grid);
+    prepare_grid(frame, seams_gregory(net, faces, frame, surface), grid);
     let rate = frame.rate;
     let (step_u, step_v) = (surface.u_size() / rate, surface.v_size() / rate);
     for row in 0..=rate {
@@ -52,8 +53,8 @@ pub struct Vertex {
 #[inline(always)]
 #[must_use]
 pub fn evaluate_gregory(net: &Net, faces: &Faces, frame: &Frame, u: u32, v: u32) -> Vertex {
+    let blends = blends_at(frame, u, v);
     let (u, v) = (param(u), param(v));
-    let blends = if frame.flags & FLAG_WEBER != 0 { weber_blends(u, v) } else { blends(u, v) };
     let here = faces.net_at(net, blends);
     let (along_u, along_v) = (Weights::at(u), Weights::at(v));
     let change = change(faces, &blends, along_u.cubic, along_v.cubic);
@@ -70,6 +71,14 @@ pub fn evaluate_gregory(net: &Net, faces: &Faces, frame: &Frame, u: u32, v: u32)
         out.dv[k] = add(blend4(along_u.cubic, across), change[1][k]);
     }
     out
+}
+
+/// The blends at a parameter, by the rules of the frame's profile.
+#[inline(always)]
+#[must_use]
+pub fn blends_at(frame: &Frame, u: u32, v: u32) -> [Blend; 4] {
+    let (u, v) = (param(u), param(v));
+    if frame.flags & FLAG_WEBER != 0 { weber_blends(u, v) } else { blends(u, v) }
 }
 
 /// Bernstein weights at a parameter, and those of the derivative.

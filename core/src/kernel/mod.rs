@@ -15,6 +15,7 @@ pub mod quads;
 pub mod sample;
 pub mod scan;
 pub mod seam;
+pub mod seam_gregory;
 pub mod shade;
 pub mod split;
 pub mod take;

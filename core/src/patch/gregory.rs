@@ -137,7 +137,7 @@ impl Faces {
 
 /// Between two numbers, at `t` from 0 to 1.
 #[inline(always)]
-const fn mix(low: f32, high: f32, t: f32) -> f32 {
+pub(crate) const fn mix(low: f32, high: f32, t: f32) -> f32 {
     add(low, mul(sub(high, low), t))
 }
 
