@@ -22,7 +22,7 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 48;
+pub const ROUNDS: u64 = 44;
 /// From this one on the draw stage is given what chance seldom brings about.
 const RARE: u64 = 32;
 /// From this one on it is given Gregory patches whose lines seem short.
