@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use micropoly_core::abi::{Layout, Shared};
+use micropoly_core::abi::{LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Layout, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::known;
 use micropoly_core::stage::{Items, Stage};
@@ -22,8 +22,14 @@ use crate::program::{GROUP, Kind, Which, build};
 
 /// Pixels a side of the tile that a work-group samples; `TILE` in `grids.cl`.
 const TILE: u32 = 16;
+/// Work-groups that deal what one group of LOCAL has: an item an entry of its stack, or a draw.
+const DEAL_ROWS: u64 =
+    (if LOCAL_STACK > LOCAL_DRAWS { LOCAL_STACK } else { LOCAL_DRAWS }) as u64 / GROUP as u64;
 /// Bytes of local memory that a work-group needs at most.
 const LOCAL_MEMORY: u64 = 16 << 10;
+
+// In LOCAL each work-item has a surface of the batch.
+const _: () = assert!(LOCAL_BATCH == GROUP as u32);
 
 /// Gives a kernel file's name and source, takes the source to be built.
 pub type Edit<'a> = &'a dyn Fn(&str, &str) -> String;
@@ -193,10 +199,14 @@ impl Grid {
     fn of(stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Option<Self> {
         match (stage, items) {
             (Stage::KnownAnswers, Items::Count(count)) => Self::counted(count, &buffers[1..3]),
-            (Stage::Take | Stage::Flush, _) | (Stage::Scan, Items::Taken) => Some(Self::of_groups(1, 1)),
+            (Stage::Take | Stage::Flush | Stage::Balance, _) | (Stage::Scan, Items::Taken) => {
+                Some(Self::of_groups(1, 1))
+            }
             // How many are taken only the device knows; the rest of the batch does nothing.
             (Stage::Bound, Items::Taken) => Some(Self::of_items(buffers[5].entries())),
             (Stage::Split, Items::Taken) => Some(Self::of_items(buffers[1].entries())),
+            (Stage::Local, Items::Groups(count)) => Self::a_column_each(count, 1, buffers[4]),
+            (Stage::Deal, Items::Groups(count)) => Self::a_column_each(count, DEAL_ROWS, buffers[1]),
             _ => None,
         }
     }
@@ -204,6 +214,11 @@ impl Grid {
     fn counted(count: u32, buffers: &[&OclBuffer]) -> Option<Self> {
         let fits = buffers.iter().all(|buffer| u64::from(count) <= buffer.entries());
         fits.then(|| Self { number: Some(count), ..Self::of_items(u64::from(count)) })
+    }
+
+    /// A column of work-groups a group of LOCAL; there may be more groups than devices have room for in a column.
+    fn a_column_each(count: u32, rows: u64, groups: &OclBuffer) -> Option<Self> {
+        (u64::from(count) <= groups.entries()).then(|| Self::of_groups(count.into(), rows))
     }
 
     fn of_items(items: u64) -> Self {

@@ -23,7 +23,7 @@ files! {
     "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "net.cl" "gregory.cl" "project.cl" "weber.cl"
     "take.cl" "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "seam.cl" "seam_gregory.cl" "shade.cl"
     "triangle.cl" "clip.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "flush.cl"
-    "scan.cl" "split.cl" "known_answers.cl"
+    "scan.cl" "split.cl" "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
 }
 
 /// The kernels: one a stage, and those into which the fused stage is cut.
@@ -67,11 +67,14 @@ const fn write<T: Shared>(name: &'static str) -> Argument {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::Stage(Stage::Scan),
         Self::Stage(Stage::Split),
+        Self::Stage(Stage::Local),
+        Self::Stage(Stage::Balance),
+        Self::Stage(Stage::Deal),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::ArrangeDraw,
@@ -93,6 +96,9 @@ impl Which {
             Self::Stage(Stage::Bound) => "stage_bound",
             Self::Stage(Stage::Scan) => "stage_scan",
             Self::Stage(Stage::Split) => "stage_split",
+            Self::Stage(Stage::Local) => "stage_local",
+            Self::Stage(Stage::Balance) => "stage_balance",
+            Self::Stage(Stage::Deal) => "stage_deal",
             Self::Stage(Stage::Flush) => "stage_flush",
             Self::Stage(Stage::KnownAnswers) => "stage_known_answers",
             Self::ArrangeDraw => "arrange_draw",

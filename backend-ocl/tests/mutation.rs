@@ -41,13 +41,13 @@ const ALLOWED: &[Allowed] = &[
     },
     Allowed {
         file: "take.cl",
-        line: "const bool safe = is_safe(limits, count + wanted, count - first + wanted);",
+        line: "const bool safe = is_safe(count + wanted, count - first + wanted, levels, capacity);",
         operator: " - ",
         why: "then every surface is looked at, and the answer is the same",
     },
     Allowed {
         file: "take.cl",
-        line: "return saturating_sub(taken + limits->levels, 2u) <= saturating_sub(limits->stack_room, count);",
+        line: "return saturating_sub(taken + levels, 2u) <= saturating_sub(capacity, count);",
         operator: " <= ",
         why: "then every surface is looked at where none has to be, and the answer is the same",
     },
@@ -70,8 +70,9 @@ fn stages(file: &str) -> Vec<Stage> {
     match file {
         "num.cl" => vec![Stage::KnownAnswers, Stage::Bound, Stage::Draw],
         "surface.cl" => vec![Stage::Split, Stage::Bound, Stage::Draw],
-        "counts.cl" => vec![Stage::Take, Stage::Scan],
-        "take.cl" => vec![Stage::Take, Stage::Bound],
+        "counts.cl" => vec![Stage::Take, Stage::Scan, Stage::Balance, Stage::Deal, Stage::Local],
+        "take.cl" => vec![Stage::Take, Stage::Bound, Stage::Local],
+        "scan.cl" => vec![Stage::Scan, Stage::Local],
         "bezier.cl" | "net.cl" | "gregory.cl" | "project.cl" => vec![Stage::Bound, Stage::Draw],
         "weber.cl" => vec![Stage::Bound],
         _ => {

@@ -5,10 +5,12 @@
 use micropoly::{FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
-use micropoly_conformance::{Case, run};
+use micropoly_conformance::{Case, run, run_scheduled};
 use micropoly_core::abi::Shared;
 use micropoly_core::backend::Device;
 use micropoly_core::known;
+use micropoly_core::memory::stack_min;
+use micropoly_core::schedule::Scheduler;
 
 /// Everything that an OpenCL compiler may be told to break.
 const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
@@ -69,6 +71,37 @@ fn all_scenes_have_the_bits_of_the_cpu() {
 fn other_dice_rates_have_the_bits_of_the_cpu() {
     for (rate, bound) in [(16, 20.0), (2, 20.0), (1, 3.0)] {
         compare(&case("teapot", &FrameOptions { rate, bound, ..SMALL }), &[4096], &OpenOptions::default());
+    }
+}
+
+/// One group with hardly any stack, some with stacks that they fill, and many.
+fn compare_local(case: &Case, options: &OpenOptions<'_>) {
+    let expected = run(&mut CpuDevice::new(1).expect("threads"), case, 4096).expect("renders");
+    let least = stack_min(u64::from(case.frame.levels)) as u32;
+    for index in 0..device_count() {
+        let mut device = OclDevice::open(index, options).unwrap_or_else(|error| panic!("{error}"));
+        for (batch, capacity) in [(64, least), (1000, 16 * least + 50), (5000, 0)] {
+            let outcome = run_scheduled(&mut device, case, Scheduler::Local, batch, capacity)
+                .unwrap_or_else(|error| panic!("{error}"));
+            let name = device.name();
+            assert_eq!(outcome, expected, "{}: {name} differs, batch {batch}, {options:?}", case.name);
+        }
+    }
+}
+
+#[test]
+fn local_schedules_have_the_bits_of_the_cpu() {
+    for scene in SCENES {
+        compare_local(&case(scene, &SMALL), &OpenOptions::default());
+    }
+}
+
+#[test]
+fn local_schedules_have_the_bits_of_the_cpu_behind_the_barrier() {
+    let barrier = OpenOptions { barrier: true, ..OpenOptions::default() };
+    let hostile = OpenOptions { build_options: HOSTILE.to_owned(), skip_check: true, ..barrier.clone() };
+    for options in [barrier, hostile] {
+        compare_local(&case("gregory", &SMALL), &options);
     }
 }
 

@@ -7,3 +7,7 @@ static uint lesser_of(uint a, uint b) {
 static uint saturating_sub(uint a, uint b) {
     return a > b ? a - b : 0u;
 }
+
+static uint greater_of(uint a, uint b) {
+    return a > b ? a : b;
+}

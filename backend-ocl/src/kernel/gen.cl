@@ -17,6 +17,10 @@
 #define INNER_MOST 4.4444445e-1f
 #define THIRD 3.3333334e-1f
 #define SHADE_TINY 1e-30f
+#define LOCAL_BATCH 64u
+#define LOCAL_BATCHES 8u
+#define LOCAL_DRAWS 512u
+#define LOCAL_STACK 512u
 #define CULL 0u
 #define DRAW 1u
 #define SPLIT_U 2u
@@ -107,6 +111,22 @@ typedef struct {
 } Control;
 
 typedef struct {
+    uint stack;
+    uint roots;
+    uint next_root;
+    uint batches;
+    uint room;
+    uint held;
+    uint draws;
+    uint first_draw;
+    uint processed;
+    uint culled;
+    uint limited;
+    uint peak;
+    uint load;
+} Group;
+
+typedef struct {
     uint operation;
     uint a;
     uint b;
@@ -119,6 +139,7 @@ typedef struct {
     uint stack_room;
     uint draw_room;
     uint levels;
+    uint groups;
 } Limits;
 
 typedef struct {

@@ -3,10 +3,10 @@
 static void split(Control control, Surface surface, Verdict verdict, Slot slot, __global Surface *stack,
                   __global Draw *draws) {
     const uint place = control.base + 2u * slot.splits;
-    if (verdict.code == SPLIT_U) {
-        halves_u(surface, stack + place);
-    } else if (verdict.code == SPLIT_V) {
-        halves_v(surface, stack + place);
+    if (verdict.code == SPLIT_U || verdict.code == SPLIT_V) {
+        const Halves halves = halves_of(surface, verdict.code);
+        stack[place] = halves.low;
+        stack[place + 1u] = halves.high;
     } else if (verdict.code != CULL) {
         draws[control.waiting + slot.draws] = new_draw(surface, verdict);
     }

@@ -27,20 +27,32 @@ static uint v_size(Surface surface) {
     return PARAM_ONE >> v_level(surface);
 }
 
-static void halves_u(Surface surface, __global Surface *halves) {
+// Both halves of a surface.
+typedef struct {
+    Surface low;
+    Surface high;
+} Halves;
+
+static Halves halves_u(Surface surface) {
     const uint shape = surface.shape + 1u;
-    const Surface low = {surface.patch_id, surface.u, surface.v, shape};
-    const Surface high = {surface.patch_id, surface.u + u_size(surface) / 2u, surface.v, shape};
-    halves[0] = low;
-    halves[1] = high;
+    const Halves halves = {
+        {surface.patch_id, surface.u, surface.v, shape},
+        {surface.patch_id, surface.u + u_size(surface) / 2u, surface.v, shape},
+    };
+    return halves;
 }
 
-static void halves_v(Surface surface, __global Surface *halves) {
+static Halves halves_v(Surface surface) {
     const uint shape = surface.shape + (1u << V_LEVEL_SHIFT);
-    const Surface low = {surface.patch_id, surface.u, surface.v, shape};
-    const Surface high = {surface.patch_id, surface.u, surface.v + v_size(surface) / 2u, shape};
-    halves[0] = low;
-    halves[1] = high;
+    const Halves halves = {
+        {surface.patch_id, surface.u, surface.v, shape},
+        {surface.patch_id, surface.u, surface.v + v_size(surface) / 2u, shape},
+    };
+    return halves;
+}
+
+static Halves halves_of(Surface surface, uint code) {
+    return code == SPLIT_U ? halves_u(surface) : halves_v(surface);
 }
 
 static Draw new_draw(Surface surface, Verdict verdict) {

@@ -19,31 +19,31 @@ static Surface member(__global const Control *control, __global const Surface *s
     return stack[control->base + item - control->roots];
 }
 
-static bool is_safe(__global const Limits *limits, uint count, uint taken) {
-    return saturating_sub(taken + limits->levels, 2u) <= saturating_sub(limits->stack_room, count);
+static bool is_safe(uint count, uint taken, uint levels, uint capacity) {
+    return saturating_sub(taken + levels, 2u) <= saturating_sub(capacity, count);
 }
 
-static bool is_never_split(__global const Limits *limits, uint entry_level) {
-    return entry_level + 1u >= limits->levels;
+static bool is_never_split(uint entry_level, uint levels) {
+    return entry_level + 1u >= levels;
 }
 
-static uint lowest(__global const Limits *limits, uint entry, uint entry_level) {
-    if (is_never_split(limits, entry_level)) {
+static uint lowest(uint entry, uint entry_level, uint levels, uint capacity) {
+    if (is_never_split(entry_level, levels)) {
         return 0u;
     }
-    const uint left = saturating_sub(saturating_sub(limits->stack_room, entry), limits->levels - entry_level);
+    const uint left = saturating_sub(saturating_sub(capacity, entry), levels - entry_level);
     return saturating_sub(entry, left);
 }
 
-static uint roots_below(__global const Limits *limits, uint entry, uint entry_level) {
-    if (is_never_split(limits, entry_level)) {
+static uint roots_below(uint entry, uint entry_level, uint levels, uint capacity) {
+    if (is_never_split(entry_level, levels)) {
         return UINT_MAX;
     }
-    return saturating_sub(saturating_sub(limits->stack_room, limits->levels - entry_level) / 2u, entry);
+    return saturating_sub(saturating_sub(capacity, levels - entry_level) / 2u, entry);
 }
 
-static uint roots_above_none(__global const Limits *limits) {
-    const uint below = roots_below(limits, 0u, 0u);
+static uint roots_above_none(uint levels, uint capacity) {
+    const uint below = roots_below(0u, 0u, levels, capacity);
     return below == UINT_MAX ? below : below + 1u;
 }
 
@@ -51,19 +51,20 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void stage_take(__global const Limits *limits, __global const Surface *stack, __global Control *control) {
     __local uint base, roots;
     const uint lane = get_local_id(0), count = control->stack;
+    const uint levels = limits->levels, capacity = limits->stack_room;
     const uint first = saturating_sub(count, limits->batch);
     const uint wanted = lesser_of(limits->patches - control->next_root, saturating_sub(limits->batch, count));
-    const bool safe = is_safe(limits, count + wanted, count - first + wanted);
+    const bool safe = is_safe(count + wanted, count - first + wanted, levels, capacity);
     if (lane == 0u) {
         base = first;
-        roots = safe ? wanted : lesser_of(wanted, roots_above_none(limits));
+        roots = safe ? wanted : lesser_of(wanted, roots_above_none(levels, capacity));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (!safe) {
         for (uint entry = first + lane; entry < count; entry += GROUP) {
             const uint entry_level = level(stack[entry]);
-            atomic_max(&base, lowest(limits, entry, entry_level));
-            atomic_min(&roots, roots_below(limits, entry, entry_level));
+            atomic_max(&base, lowest(entry, entry_level, levels, capacity));
+            atomic_min(&roots, roots_below(entry, entry_level, levels, capacity));
         }
     }
     barrier(CLK_LOCAL_MEM_FENCE);
