@@ -45,7 +45,9 @@ fn count_groups(index: u32, lane: u32) {
         let held = groups[other].held;
         if held > 0u {
             atomicAdd(&holders[held - 1u], 1u);
-            atomicAdd(&holders_before[held - 1u], select(0u, 1u, other < index));
+            if other < index {
+                atomicAdd(&holders_before[held - 1u], 1u);
+            }
         }
     }
 }
