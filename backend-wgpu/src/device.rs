@@ -220,11 +220,20 @@ impl WgpuDevice {
     /// Number of groups of a stage; arranges them on the device if only it knows them.
     fn groups(&mut self, stage: Stage, items: Items, buffers: &[&WgpuBuffer]) -> Result<Groups, WgpuError> {
         match (stage, items) {
-            (Stage::Take | Stage::Flush, _) | (Stage::Scan, Items::Taken) => Ok(Groups::Known(1, 1)),
-            (Stage::KnownAnswers, Items::Count(count)) => Ok(spread(count)),
+            (Stage::Take | Stage::Balance | Stage::Flush, _) | (Stage::Scan, Items::Taken) => {
+                Ok(Groups::Known(1, 1))
+            }
+            (Stage::KnownAnswers, Items::Count(count)) => Ok(spread(count.div_ceil(ITEMS_A_GROUP))),
+            // The kernels know how many there are by the length of their buffer.
+            (Stage::Local | Stage::Deal, Items::Groups(count))
+                if place_of(stage, "groups")
+                    .is_some_and(|place| buffers[place].entries() == count.into()) =>
+            {
+                Ok(spread(count))
+            }
             (Stage::Bound | Stage::Split, Items::Taken) => {
-                let place = stage.bindings().iter().position(|binding| binding.name == "control");
-                let control = place.ok_or(WgpuError::Bindings { stage: stage.name() })?;
+                let control =
+                    place_of(stage, "control").ok_or(WgpuError::Bindings { stage: stage.name() })?;
                 let groups = self.groups.clone();
                 self.record(Which::Arrange, &[buffers[control].memory(), &groups], Groups::Known(1, 1));
                 Ok(Groups::Arranged)
@@ -264,9 +273,13 @@ enum Groups {
     ArrangedSecond,
 }
 
-/// Groups for `count` items; mirrors `arrange.wgsl`.
-fn spread(count: u32) -> Groups {
-    let groups = count.div_ceil(ITEMS_A_GROUP);
+/// Place of a buffer among a stage's.
+fn place_of(stage: Stage, name: &str) -> Option<usize> {
+    stage.bindings().iter().position(|binding| binding.name == name)
+}
+
+/// So many groups, over two dimensions if one is too small; mirrors `arrange.wgsl`.
+fn spread(groups: u32) -> Groups {
     Groups::Known(groups.min(MOST_GROUPS), groups.div_ceil(MOST_GROUPS))
 }
 
@@ -437,7 +450,11 @@ impl Device for WgpuDevice {
         }
         let groups = self.groups(stage, items, buffers)?;
         let memories: Vec<_> = memories.into_iter().chain(more).collect();
-        let which = if stage == Stage::Bound && is_general { Which::BoundAny } else { Which::Stage(stage) };
+        let which = match stage {
+            Stage::Bound if is_general => Which::BoundAny,
+            Stage::Local if is_general => Which::LocalAny,
+            _ => Which::Stage(stage),
+        };
         self.record(which, &memories, groups);
         if self.pending >= MOST_PENDING {
             self.submit();

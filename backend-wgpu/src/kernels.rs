@@ -33,6 +33,7 @@ files! {
     BOUND: "bound",
     BOUND_BEZIER: "bound_bezier",
     BOUND_ANY: "bound_any",
+    BOUND_BATCH: "bound_batch",
     SEAM: "seam",
     SEAM_GREGORY: "seam_gregory",
     DICE: "dice",
@@ -52,9 +53,15 @@ files! {
     ARRANGE_TILES: "arrange_tiles",
     COUNTS: "counts",
     TAKE: "take",
+    TAKE_BATCH: "take_batch",
     FLUSH: "flush",
     SCAN: "scan",
+    SCAN_BATCH: "scan_batch",
     SPLIT: "split",
+    SPLIT_BATCH: "split_batch",
+    LOCAL: "local",
+    BALANCE: "balance",
+    DEAL: "deal",
     KNOWN_ANSWERS: "known_answers",
     ARRANGE: "arrange",
 }
@@ -62,10 +69,12 @@ files! {
 /// The kernels: one a stage, those into which the fused stage is cut, and those that count groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// A stage other than the fused one; of `bound`, what Bézier patches and our own profile need.
+    /// A stage other than the fused one; of `bound` and `local`, what Bézier patches and our own profile need.
     Stage(Stage),
     /// All of `bound`.
     BoundAny,
+    /// All of `local`.
+    LocalAny,
     /// Turns a batch into a number of groups.
     Arrange,
     /// The next chunk of draws.
@@ -91,12 +100,16 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 18] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
         Self::Stage(Stage::Scan),
         Self::Stage(Stage::Split),
+        Self::Stage(Stage::Local),
+        Self::LocalAny,
+        Self::Stage(Stage::Balance),
+        Self::Stage(Stage::Deal),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::Arrange,
@@ -121,6 +134,7 @@ impl Which {
             Self::Arrange => "arrange",
             Self::ArrangeDraw => "arrange_draw",
             Self::BoundAny => "bound (any)",
+            Self::LocalAny => "local (any)",
             Self::Draw => "draw",
             Self::DrawAny => "draw (any)",
             Self::ArrangeTiles => "arrange_tiles",
@@ -137,6 +151,9 @@ impl Which {
             Self::Stage(Stage::Bound) | Self::BoundAny => &[Stage::Bound],
             Self::Stage(Stage::Scan) => &[Stage::Scan],
             Self::Stage(Stage::Split) => &[Stage::Split],
+            Self::Stage(Stage::Local) | Self::LocalAny => &[Stage::Local],
+            Self::Stage(Stage::Balance) => &[Stage::Balance],
+            Self::Stage(Stage::Deal) => &[Stage::Deal],
             Self::Stage(Stage::Flush) => &[Stage::Flush],
             Self::Stage(Stage::KnownAnswers) => &[Stage::KnownAnswers],
             Self::Arrange => &[Stage::Bound, Stage::Split],
@@ -153,15 +170,48 @@ impl Which {
     #[must_use]
     pub const fn files(self) -> &'static [File] {
         match self {
-            Self::Stage(Stage::Take) => &[GEN, COUNTS, SURFACE, TAKE],
+            Self::Stage(Stage::Take) => &[GEN, COUNTS, SURFACE, TAKE, TAKE_BATCH],
             Self::Stage(Stage::Bound) => {
-                &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND_BEZIER, BOUND]
+                &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND_BEZIER, BOUND, BOUND_BATCH]
             }
-            Self::BoundAny => {
-                &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, GREGORY, WEBER, BOUND_ANY, BOUND]
-            }
-            Self::Stage(Stage::Scan) => &[GEN, COUNTS, SCAN],
-            Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, SPLIT],
+            Self::BoundAny => &[
+                GEN,
+                ITEMS,
+                NUM,
+                SURFACE,
+                BEZIER,
+                NET,
+                PROJECT,
+                GREGORY,
+                WEBER,
+                BOUND_ANY,
+                BOUND,
+                BOUND_BATCH,
+            ],
+            Self::Stage(Stage::Scan) => &[GEN, COUNTS, SCAN, SCAN_BATCH],
+            Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, SPLIT, SPLIT_BATCH],
+            Self::Stage(Stage::Local) => &[
+                GEN,
+                ITEMS,
+                COUNTS,
+                NUM,
+                SURFACE,
+                BEZIER,
+                NET,
+                PROJECT,
+                BOUND_BEZIER,
+                BOUND,
+                TAKE,
+                SCAN,
+                SPLIT,
+                LOCAL,
+            ],
+            Self::LocalAny => &[
+                GEN, ITEMS, COUNTS, NUM, SURFACE, BEZIER, NET, PROJECT, GREGORY, WEBER, BOUND_ANY, BOUND,
+                TAKE, SCAN, SPLIT, LOCAL,
+            ],
+            Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
+            Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],
@@ -217,6 +267,7 @@ impl Which {
             |names: &[&'static str]| names.iter().map(|name| (*name, Access::Write)).collect::<Vec<_>>();
         match self {
             Self::BoundAny => Self::Stage(Stage::Bound).bindings(),
+            Self::LocalAny => Self::Stage(Stage::Local).bindings(),
             Self::DrawAny => Self::Draw.bindings(),
             Self::Stage(stage) => {
                 let own = stage.bindings().iter().map(|binding| (binding.name, binding.access));

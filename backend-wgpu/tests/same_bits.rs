@@ -3,10 +3,12 @@
 use micropoly::{FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
-use micropoly_conformance::{Case, Outcome, run};
-use micropoly_core::abi::{Frame, Patch, Question, Shared, Surface};
+use micropoly_conformance::{Case, Outcome, run, run_scheduled};
+use micropoly_core::abi::{Draw, Frame, Group, Object, Patch, Question, Shared, Surface};
 use micropoly_core::backend::Device;
 use micropoly_core::kernel::known_answers::answer;
+use micropoly_core::memory::stack_min;
+use micropoly_core::schedule::Scheduler;
 use micropoly_core::stage::{Items, Stage};
 
 fn open() -> WgpuDevice {
@@ -76,6 +78,21 @@ fn gregory_patches_and_webers_rules_have_the_same_bits() {
     assert_same(&case("teapot", weber), &[4096]);
 }
 
+/// One group and many, stacks as small as they can be and as large as they are without a capacity.
+#[test]
+fn groups_with_stacks_of_their_own_give_the_same_bits() {
+    let weber = FrameOptions { profile: Profile::Weber2014, ..small() };
+    let mut device = open();
+    for case in [case("teapot", small()), case("gregory", small()), case("eyesplit", weber)] {
+        let (expected, least) = (on_cpu(&case), stack_min(u64::from(case.frame.levels)) as u32);
+        for (batch, capacity) in [(1, least), (64, 0), (1000, 16 * least + 50), (20_000, 0)] {
+            let found =
+                run_scheduled(&mut device, &case, Scheduler::Local, batch, capacity).expect("renders");
+            assert_eq!(found, expected, "{}, batch {batch}, capacity {capacity}", case.name);
+        }
+    }
+}
+
 #[test]
 fn large_grids_have_the_same_bits() {
     assert_same(&case("teapot", FrameOptions { rate: 16, bound: 20.0, ..small() }), &[4096]);
@@ -113,6 +130,31 @@ fn many_items_are_spread_over_two_dimensions() {
     let mut answers = vec![0; count as usize];
     device.read(&answered, 0, &mut answers).expect("reads");
     assert!(answers.iter().zip(&questions).all(|(found, question)| *found == answer(*question)));
+}
+
+/// Groups of LOCAL that keep what they have.
+#[test]
+fn many_groups_are_spread_over_two_dimensions() {
+    let count = 70_000;
+    let mut device = open();
+    let mut reserve = |name, layout, entries| device.allocate(name, layout, entries).expect("memory");
+    let frame = reserve("frame", Frame::LAYOUT, 1);
+    let objects = reserve("objects", Object::LAYOUT, 1);
+    let patches = reserve("patches", Patch::LAYOUT, 1);
+    let groups = reserve("groups", Group::LAYOUT, u64::from(count));
+    let [dealt, stack] = ["dealt", "stack"].map(|name| reserve(name, Surface::LAYOUT, u64::from(count)));
+    let fresh = reserve("fresh", Draw::LAYOUT, 1);
+    device.write(&groups, &vec![Group { stack: 1, room: 1, ..Group::default() }; 70_000]).expect("writes");
+    let surfaces: Vec<Surface> = (1..=count).map(Surface::root).collect();
+    device.write(&dealt, &surfaces).expect("writes");
+    let buffers = [&frame, &objects, &patches, &dealt, &groups, &stack, &fresh];
+    device.dispatch(Stage::Local, Items::Groups(count), &buffers).expect("runs");
+    let mut found = vec![Surface::default(); surfaces.len()];
+    device.read(&stack, 0, &mut found).expect("reads");
+    assert!(found == surfaces);
+    let error =
+        device.dispatch(Stage::Local, Items::Groups(count - 1), &buffers).expect_err("more are there");
+    assert!(matches!(error, WgpuError::Bindings { stage: "local" }), "{error}");
 }
 
 #[test]

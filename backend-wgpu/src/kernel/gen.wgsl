@@ -17,6 +17,10 @@ const SEAM_ALLOWANCE: f32 = 1.0039063e0f;
 const INNER_MOST: f32 = 4.4444445e-1f;
 const THIRD: f32 = 3.3333334e-1f;
 const SHADE_TINY: f32 = 1e-30f;
+const LOCAL_BATCH: u32 = 64u;
+const LOCAL_BATCHES: u32 = 8u;
+const LOCAL_DRAWS: u32 = 512u;
+const LOCAL_STACK: u32 = 512u;
 const CULL: u32 = 0u;
 const DRAW: u32 = 1u;
 const SPLIT_U: u32 = 2u;
@@ -106,6 +110,22 @@ struct Control {
     overflow: u32,
 }
 
+struct Group {
+    stack: u32,
+    roots: u32,
+    next_root: u32,
+    batches: u32,
+    room: u32,
+    held: u32,
+    draws: u32,
+    first_draw: u32,
+    processed: u32,
+    culled: u32,
+    limited: u32,
+    peak: u32,
+    load: u32,
+}
+
 struct Question {
     operation: u32,
     a: u32,
@@ -119,6 +139,7 @@ struct Limits {
     stack_room: u32,
     draw_room: u32,
     levels: u32,
+    groups: u32,
 }
 
 struct Sample {

@@ -3,6 +3,11 @@
 const LEVEL_MASK: u32 = 31u;
 const V_LEVEL_SHIFT: u32 = 5u;
 
+// A whole patch.
+fn root(patch_id: u32) -> Surface {
+    return Surface(patch_id, 0u, 0u, 0u);
+}
+
 fn u_level(surface: Surface) -> u32 {
     return surface.shape & LEVEL_MASK;
 }
@@ -33,6 +38,11 @@ fn half_u(surface: Surface, upper: u32) -> Surface {
 fn half_v(surface: Surface, upper: u32) -> Surface {
     let start = surface.v + upper * (v_size(surface) / 2u);
     return Surface(surface.patch_id, surface.u, start, surface.shape + (1u << V_LEVEL_SHIFT));
+}
+
+// The surface to be diced.
+fn draw_of(surface: Surface, verdict: Verdict) -> Draw {
+    return Draw(surface.patch_id, surface.u, surface.v, surface.shape, verdict.columns, verdict.rows);
 }
 
 fn surface_of(draw: Draw) -> Surface {
