@@ -35,7 +35,7 @@ static Totals sum_totals(__local const Totals *all, uint count) {
 static uint roots_given(__global const Limits *limits, uint held, uint waiting) {
     const uint dealt = share(held, 0u, limits->groups);
     const uint wanted = saturating_sub(LOCAL_BATCH, dealt);
-    const uint room = saturating_sub(limits->stack_room + 2u, limits->levels + greater_of(dealt, 1u));
+    const uint room = saturating_sub(limits->stack_room + 1u, limits->levels + dealt);
     return lesser_of(waiting, lesser_of(wanted, room) * limits->groups);
 }
 

@@ -79,7 +79,7 @@ fn share_before(total: u32, index: u32, players: u32) -> u32 {
 fn roots_given(held: u32, waiting: u32) -> u32 {
     let dealt = share(held, 0u, limits.groups);
     let wanted = saturating_sub(LOCAL_BATCH, dealt);
-    let room = saturating_sub(limits.stack_room + 2u, limits.levels + select(1u, dealt, dealt > 1u));
+    let room = saturating_sub(limits.stack_room + 1u, limits.levels + dealt);
     return umin(waiting, umin(wanted, room) * limits.groups);
 }
 
