@@ -139,7 +139,8 @@ impl<F: FnMut(&Row)> Job for OnDevice<'_, F> {
             let view = View { scene: self.scene, entry: self.entry, frame: *frame, seen };
             for (scheduler, batch) in self.plan.cases() {
                 let batch = Batch::Surfaces(batch);
-                let options = RenderOptions { scheduler, batch, ..self.plan.options.clone() };
+                let capacity = if scheduler.has_capacity() { self.plan.options.capacity } else { 0 };
+                let options = RenderOptions { scheduler, batch, capacity, ..self.plan.options.clone() };
                 let row = measure(&mut device, &view, &options, self.plan.repeat)?;
                 (self.progress)(&row);
                 rows.push(row);

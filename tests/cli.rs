@@ -207,6 +207,18 @@ fn options_that_cannot_be_are_refused() {
         assert!(text.contains(what) && !text.contains("panicked"), "{argument}: {text}");
         assert!(!image || argument.starts_with("--stats"), "{argument}");
     }
+    for (scheduler, stack, what) in [
+        ("adaptive", "22", "from 23"),
+        ("local", "22", "from 23"),
+        ("local", "0", "--stack"),
+        ("bounded", "500", "leave out --stack"),
+        ("breadth", "500", "leave out --stack"),
+    ] {
+        let (code, text, _) =
+            render(&scene, &[&format!("--scheduler={scheduler}"), &format!("--stack={stack}")]);
+        assert!(code == 1 || code == 2, "{scheduler} {stack} gave exit code {code}: {text}");
+        assert!(text.contains(what) && !text.contains("panicked"), "{scheduler} {stack}: {text}");
+    }
     let output = micropoly(&["render", scene.to_str().expect("UTF-8"), "-o", "/nowhere/out.png"]);
     assert_eq!(output.status.code(), Some(1));
     let output = micropoly(&["render", scene.to_str().expect("UTF-8"), "-o", "out.jpg"]);

@@ -121,12 +121,12 @@ impl Sizes {
             }
             index += 1;
         }
-        if self.stack_entries() > MAX_STACK {
-            return Err(invalid("surface stack", self.stack_entries(), 1, MAX_STACK));
-        }
         let least = stack_min(self.levels as u64);
         if self.capacity != 0 && (self.capacity as u64) < least {
-            return Err(invalid("stack capacity", self.capacity as u64, least, MAX_STACK));
+            return Err(invalid("number of stack entries (stack)", self.capacity as u64, least, MAX_STACK));
+        }
+        if self.stack_entries() > MAX_STACK {
+            return Err(invalid("surface stack", self.stack_entries(), 1, MAX_STACK));
         }
         match self.scheduler {
             Scheduler::Stack => Ok(Self { batch: 1, ..self }),

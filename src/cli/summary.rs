@@ -13,7 +13,8 @@ fn stack(surfaces: &Surfaces) -> String {
     };
     match surfaces.load {
         Some(LoadStats { groups, least, most: busiest, .. }) => {
-            format!("{most}; {groups} groups bounded {least} to {busiest} each")
+            let groups = if groups == 1 { "1 group".to_owned() } else { format!("{groups} groups") };
+            format!("{most}; {groups}, {least} to {busiest} bounded by each")
         }
         None => most,
     }

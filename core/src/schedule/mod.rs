@@ -30,6 +30,12 @@ impl Scheduler {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Stack, Self::Breadth, Self::Bounded, Self::Local, Self::Adaptive];
 
+    /// Can it do with a smaller stack than it asks for?
+    #[must_use]
+    pub const fn has_capacity(self) -> bool {
+        matches!(self, Self::Local | Self::Adaptive)
+    }
+
     /// Its name on the command line and in statistics.
     #[must_use]
     pub const fn name(self) -> &'static str {
