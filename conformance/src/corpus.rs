@@ -115,7 +115,13 @@ fn take(random: &mut fastrand::Rng) -> Parts {
     let most = [1, 20, 6000][random.usize(0..3)];
     let next_root = random.u32(0..1000);
     let patches = next_root + random.u32(0..most);
-    let limits = Limits { patches, batch, levels, stack_room, ..Limits::default() };
+    let mut limits = Limits { patches, batch, levels, stack_room, ..Limits::default() };
+    if count > 0 && random.u8(0..4) == 0 {
+        // All of the stack, and some of the roots that wait, though fewer than the batch has room for.
+        let wanted = random.u32(1..=count);
+        (limits.patches, limits.batch) = (next_root + wanted, count + wanted);
+        limits.stack_room = 2 * count + levels + random.u32(0..2 * wanted);
+    }
     let control = Control { stack: count, next_root, ..control(random) };
     let room = if stack.is_empty() { vec![Surface::default()] } else { stack };
     (Items::Count(1), vec![words(&[limits]), words(&room), words(&[control])])

@@ -83,18 +83,17 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void stage_balance(__global const Limits *limits, __global Group *groups, __global Control *control) {
     __local Totals totals[GROUP];
     const uint lane = get_local_id(0), count = limits->groups;
-    const uint run = (count + GROUP - 1u) / GROUP;
-    const uint from = lesser_of(lane * run, count), to = lesser_of(from + run, count);
-    const Control before = *control;
+    const uint from = run_start(lane, count), to = run_start(lane + 1u, count);
     totals[lane] = totals_of(groups, from, to);
-    // Nobody writes the counts before all have read them.
-    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-    const Control after = counted_groups(before, limits, sum_totals(totals, GROUP));
+    barrier(CLK_LOCAL_MEM_FENCE);
+    const Control after = counted_groups(*control, limits, sum_totals(totals, GROUP));
     uint draws_before = sum_totals(totals, lane).s1;
     for (uint index = from; index < to; index++) {
         arrange(groups + index, index, after, limits, draws_before);
         draws_before += groups[index].draws;
     }
+    // Nobody writes the counts before all have read them.
+    barrier(CLK_GLOBAL_MEM_FENCE);
     if (lane == 0u) {
         *control = after;
     }

@@ -1,4 +1,4 @@
-// No mirror in core: what Rust's integers can do and OpenCL C's cannot.
+// No mirror in core: what Rust's integers can do and OpenCL C's cannot, and who of a work-group does what.
 
 static uint lesser_of(uint a, uint b) {
     return a < b ? a : b;
@@ -10,4 +10,9 @@ static uint saturating_sub(uint a, uint b) {
 
 static uint greater_of(uint a, uint b) {
     return a > b ? a : b;
+}
+
+// Entries are shared out in unbroken runs: the first of `count` that is this work-item's.
+static uint run_start(uint lane, uint count) {
+    return lesser_of(lane * ((count + GROUP - 1u) / GROUP), count);
 }

@@ -20,7 +20,7 @@ static Surface surface_from(uint4 numbers) {
 // Base of the next batch of a stack of `count` surfaces; `next` in core/src/schedule/adaptive.rs, without roots.
 static uint next_base(__local LocalMemory *memory, uint count, uint levels, uint capacity, uint lane) {
     const uint first = saturating_sub(count, LOCAL_BATCH), entry = first + lane;
-    if (lane == 0u) {
+    if (entry == first) {
         memory->base = first;
     }
     barrier(CLK_LOCAL_MEM_FENCE);

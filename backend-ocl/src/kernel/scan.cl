@@ -49,9 +49,7 @@ void stage_scan(__global const Limits *limits, __global const Verdict *verdicts,
     __local Counts counts[GROUP];
     const uint lane = get_local_id(0);
     const uint taken = control->taken;
-    const uint run = (taken + GROUP - 1u) / GROUP;
-    const uint from = lane * run < taken ? lane * run : taken;
-    const uint to = from + run < taken ? from + run : taken;
+    const uint from = run_start(lane, taken), to = run_start(lane + 1u, taken);
     Counts own = (Counts)(0u);
     for (uint index = from; index < to; index++) {
         own += counted(verdicts[index].code);
