@@ -12,7 +12,7 @@ use crate::buffer::WgpuBuffer;
 use crate::chunk::{self, Chunk};
 use crate::error::WgpuError;
 use crate::info::{adapters, describe, instance};
-use crate::kernels::{self, Edit, Kernel, Kind, Which};
+use crate::kernels::{self, Edit, Kernel, Kind, Slot, Which};
 
 /// Items that one group works on, in stages that have an item an invocation.
 const ITEMS_A_GROUP: u32 = 64;
@@ -32,7 +32,7 @@ pub struct WgpuDevice {
     device: wgpu::Device,
     queue: wgpu::Queue,
     /// As [`Which::ALL`].
-    kernels: Vec<Kernel>,
+    kernels: Vec<Slot>,
     /// What the fused stage needs for itself.
     chunk: Chunk,
     /// Numbers of groups of indirect dispatches.
@@ -46,7 +46,8 @@ pub struct WgpuDevice {
 }
 
 impl WgpuDevice {
-    /// Opens device number `index` of [`crate::devices`], compiles all kernels and checks its arithmetic.
+    /// Opens device number `index` of [`crate::devices`], compiles its kernels (those of LOCAL when they are first
+    /// needed) and checks its arithmetic.
     ///
     /// `edit` may change each kernel file before it is compiled: for mutation tests.
     ///
@@ -76,8 +77,8 @@ impl WgpuDevice {
         let (device, queue) = request(adapter, &name)?;
         let failure = Arc::default();
         listen(&device, &failure);
-        let kernels: Result<Vec<Kernel>, WgpuError> =
-            Which::ALL.into_iter().map(|which| kernels::compiled(&device, which, edit)).collect();
+        let kernels: Result<Vec<Slot>, WgpuError> =
+            Which::ALL.into_iter().map(|which| kernels::prepared(&device, which, edit)).collect();
         let allocated = Arc::default();
         let usage = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::STORAGE;
         let read = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
@@ -157,10 +158,21 @@ impl WgpuDevice {
         self.encoder.get_or_insert_with(|| device.create_command_encoder(&Default::default()))
     }
 
+    /// A kernel, compiled now if it was not needed before.
+    fn kernel(&mut self, which: Which) -> Result<Kernel, WgpuError> {
+        let slot = &mut self.kernels[which.index()];
+        let kernel = match slot {
+            Slot::Compiled(kernel) => return Ok(kernel.clone()),
+            Slot::Source(source) => kernels::compiled(&self.device, which, source)?,
+        };
+        *slot = Slot::Compiled(kernel.clone());
+        Ok(kernel)
+    }
+
     /// Records one kernel.
-    fn record(&mut self, which: Which, buffers: &[&wgpu::Buffer], groups: Groups) {
-        let kernel = &self.kernels[which.index()];
-        let bind_group = bind(&self.device, kernel, buffers);
+    fn record(&mut self, which: Which, buffers: &[&wgpu::Buffer], groups: Groups) -> Result<(), WgpuError> {
+        let kernel = self.kernel(which)?;
+        let bind_group = bind(&self.device, &kernel, buffers);
         let device = &self.device;
         let encoder = self.encoder.get_or_insert_with(|| device.create_command_encoder(&Default::default()));
         let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -173,6 +185,7 @@ impl WgpuDevice {
         }
         drop(pass);
         self.pending += 1;
+        Ok(())
     }
 
     /// Runs the fused stage, chunk by chunk.
@@ -181,32 +194,32 @@ impl WgpuDevice {
         let rounds = self.chunk.rounds.clone();
         self.encoder().clear_buffer(&rounds, chunk::BEGUN, Some(4));
         for _ in 0..buffers.room.div_ceil(chunk::DRAWS) {
-            self.draw_chunk(buffers);
+            self.draw_chunk(buffers)?;
             while self.chunk.in_rounds && self.is_unfinished()? {
-                self.sample_tiles(buffers);
+                self.sample_tiles(buffers)?;
             }
         }
         Ok(())
     }
 
-    fn draw_chunk(&mut self, b: &DrawBuffers<'_>) {
+    fn draw_chunk(&mut self, b: &DrawBuffers<'_>) -> Result<(), WgpuError> {
         let (grids, rounds, groups) =
             (self.chunk.grids.clone(), self.chunk.rounds.clone(), self.groups.clone());
         let arranged = [b.frame, b.control, b.draws, &grids, &rounds, &groups];
-        self.record(Which::ArrangeDraw, &arranged, Groups::Known(1, 1));
+        self.record(Which::ArrangeDraw, &arranged, Groups::Known(1, 1))?;
         let diced = [b.frame, b.objects, b.patches, b.draws, &grids, b.more_patches];
-        self.record(if b.is_general { Which::DrawAny } else { Which::Draw }, &diced, Groups::Arranged);
-        self.sample_tiles(b);
+        self.record(if b.is_general { Which::DrawAny } else { Which::Draw }, &diced, Groups::Arranged)?;
+        self.sample_tiles(b)
     }
 
     /// One round of the tiles.
-    fn sample_tiles(&mut self, b: &DrawBuffers<'_>) {
+    fn sample_tiles(&mut self, b: &DrawBuffers<'_>) -> Result<(), WgpuError> {
         let (grids, rounds, groups) =
             (self.chunk.grids.clone(), self.chunk.rounds.clone(), self.groups.clone());
-        self.record(Which::ArrangeTiles, &[b.frame, &grids, &rounds, &groups], Groups::Known(1, 1));
+        self.record(Which::ArrangeTiles, &[b.frame, &grids, &rounds, &groups], Groups::Known(1, 1))?;
         let tiles = [b.frame, b.draws, &grids, b.samples, b.colours, &rounds];
-        self.record(Which::Tiles(Kind::Near), &tiles, Groups::Arranged);
-        self.record(Which::Tiles(Kind::General), &tiles, Groups::ArrangedSecond);
+        self.record(Which::Tiles(Kind::Near), &tiles, Groups::Arranged)?;
+        self.record(Which::Tiles(Kind::General), &tiles, Groups::ArrangedSecond)
     }
 
     /// Has any tile draws left?
@@ -235,7 +248,7 @@ impl WgpuDevice {
                 let control =
                     place_of(stage, "control").ok_or(WgpuError::Bindings { stage: stage.name() })?;
                 let groups = self.groups.clone();
-                self.record(Which::Arrange, &[buffers[control].memory(), &groups], Groups::Known(1, 1));
+                self.record(Which::Arrange, &[buffers[control].memory(), &groups], Groups::Known(1, 1))?;
                 Ok(Groups::Arranged)
             }
             _ => Err(WgpuError::Bindings { stage: stage.name() }),
@@ -455,7 +468,7 @@ impl Device for WgpuDevice {
             Stage::Local if is_general => Which::LocalAny,
             _ => Which::Stage(stage),
         };
-        self.record(which, &memories, groups);
+        self.record(which, &memories, groups)?;
         if self.pending >= MOST_PENDING {
             self.submit();
         }

@@ -296,20 +296,36 @@ fn more_patches(stage: Stage) -> Option<(&'static str, Access)> {
 }
 
 /// A compiled kernel and the layout of its bindings.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Kernel {
     pub(crate) pipeline: wgpu::ComputePipeline,
     pub(crate) bindings: wgpu::BindGroupLayout,
 }
 
-/// Compiles a kernel.
-pub(crate) fn compiled(
+/// A kernel, or what it will be made of when it is first needed.
+#[derive(Debug)]
+pub(crate) enum Slot {
+    Compiled(Kernel),
+    Source(String),
+}
+
+/// Compiles a kernel; of those of LOCAL, which few frames need and which take long, only the source is kept.
+pub(crate) fn prepared(
     device: &wgpu::Device,
     which: Which,
     edit: Option<Edit<'_>>,
-) -> Result<Kernel, WgpuError> {
+) -> Result<Slot, WgpuError> {
+    let source = source(which.files(), edit);
+    if matches!(which, Which::Stage(Stage::Local) | Which::LocalAny) {
+        return Ok(Slot::Source(source));
+    }
+    compiled(device, which, &source).map(Slot::Compiled)
+}
+
+/// Compiles a kernel.
+pub(crate) fn compiled(device: &wgpu::Device, which: Which, source: &str) -> Result<Kernel, WgpuError> {
     let access: Vec<Access> = which.bindings().iter().map(|(_, access)| *access).collect();
-    compile(device, which.name(), &source(which.files(), edit), &access)
+    compile(device, which.name(), source, &access)
 }
 
 /// All files after each other; [`NOTHING`] if the kernel's own is edited away.
