@@ -64,6 +64,37 @@ const ALLOWED: &[Allowed] = &[
         why: "the first run wraps around and is then the whole batch; the others are empty",
     },
     Allowed {
+        file: "balance.wgsl",
+        line: "let run = (limits.groups + RUNS - 1u) / RUNS;",
+        operator: " - ",
+        why: "longer runs share out the same work",
+    },
+    Allowed {
+        file: "balance.wgsl",
+        line: "let run = (limits.groups + RUNS - 1u) / RUNS;",
+        operator: " / ",
+        why: "the first run then has all groups",
+    },
+    Allowed {
+        file: "balance.wgsl",
+        line: "let end = umin(first + run, limits.groups);",
+        operator: " + ",
+        why: "the first run wraps around and then has all groups; the others are empty",
+    },
+    Allowed { file: "balance.wgsl", line: "if lane == 0u {", operator: " == ", why: "all write the same" },
+    Allowed {
+        file: "balance.wgsl",
+        line: "a.held + b.held, a.draws + b.draws, a.processed + b.processed,",
+        operator: " + ",
+        why: "a run's sum has the wrong sign, and so has the sum of all runs, which puts it right",
+    },
+    Allowed {
+        file: "balance.wgsl",
+        line: "a.culled + b.culled, a.limited + b.limited, a.peak + b.peak,",
+        operator: " + ",
+        why: "a run's sum has the wrong sign, and so has the sum of all runs, which puts it right",
+    },
+    Allowed {
         file: "known_answers.wgsl",
         line: "if item < arrayLength(&questions) && item < arrayLength(&answers) {",
         operator: " && ",

@@ -51,12 +51,8 @@ fn totals_of(group: Group) -> Totals {
 
 fn together(a: Totals, b: Totals) -> Totals {
     return Totals(
-        a.held + b.held,
-        a.draws + b.draws,
-        a.processed + b.processed,
-        a.culled + b.culled,
-        a.limited + b.limited,
-        a.peak + b.peak,
+        a.held + b.held, a.draws + b.draws, a.processed + b.processed,
+        a.culled + b.culled, a.limited + b.limited, a.peak + b.peak,
     );
 }
 

@@ -11,7 +11,7 @@
 @group(0) @binding(4) var<storage, read_write> dealt: array<Surface>;
 @group(0) @binding(5) var<storage, read_write> draws: array<Draw>;
 
-const GROUP: u32 = 64u;
+const GROUP: u32 = LOCAL_BATCH;
 const RUN: u32 = LOCAL_STACK / GROUP;
 
 // How many groups, and how many of them before this one, hold one surface, two, three …
@@ -99,9 +99,10 @@ fn place_of(index: u32, entry: u32) -> u32 {
     return index * groups[index].room + entry;
 }
 
+// No group is given more roots than a batch.
 fn put_roots(index: u32, lane: u32) {
-    for (var entry = lane; entry < groups[index].roots; entry += GROUP) {
-        dealt[place_of(index, entry)] = root(groups[index].next_root - 1u - entry);
+    if lane < groups[index].roots {
+        dealt[place_of(index, lane)] = root(groups[index].next_root - 1u - lane);
     }
 }
 

@@ -117,7 +117,7 @@ pub(super) fn balance(random: &mut fastrand::Rng) -> Parts {
 
 pub(super) fn deal(random: &mut fastrand::Rng) -> Parts {
     let (control, limits, mut groups) = round(random);
-    groups.truncate(60); // more would only take longer
+    groups.truncate(150); // more would only take longer
     let count = groups.len();
     let full = random.u8(0..8) == 0;
     let draw_room = if full { 0 } else { u32::MAX };
