@@ -5,7 +5,7 @@
 use micropoly::{FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
-use micropoly_conformance::{Case, run, run_scheduled};
+use micropoly_conformance::{Case, Schedule, run, run_scheduled};
 use micropoly_core::abi::Shared;
 use micropoly_core::backend::Device;
 use micropoly_core::known;
@@ -81,8 +81,9 @@ fn compare_local(case: &Case, options: &OpenOptions<'_>) {
     for index in 0..device_count() {
         let mut device = OclDevice::open(index, options).unwrap_or_else(|error| panic!("{error}"));
         for (batch, capacity) in [(64, least), (1000, 16 * least + 50), (5000, 0)] {
-            let outcome = run_scheduled(&mut device, case, Scheduler::Local, batch, capacity)
-                .unwrap_or_else(|error| panic!("{error}"));
+            let schedule = Schedule { scheduler: Scheduler::Local, batch, capacity };
+            let outcome =
+                run_scheduled(&mut device, case, schedule).unwrap_or_else(|error| panic!("{error}"));
             let name = device.name();
             assert_eq!(outcome, expected, "{}: {name} differs, batch {batch}, {options:?}", case.name);
         }

@@ -3,7 +3,7 @@
 use micropoly::{FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
-use micropoly_conformance::{Case, Outcome, run, run_scheduled};
+use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::abi::{Draw, Frame, Group, Object, Patch, Question, Shared, Surface};
 use micropoly_core::backend::Device;
 use micropoly_core::kernel::known_answers::answer;
@@ -86,8 +86,8 @@ fn groups_with_stacks_of_their_own_give_the_same_bits() {
     for case in [case("teapot", small()), case("gregory", small()), case("eyesplit", weber)] {
         let (expected, least) = (on_cpu(&case), stack_min(u64::from(case.frame.levels)) as u32);
         for (batch, capacity) in [(1, least), (64, 0), (1000, 16 * least + 50), (20_000, 0)] {
-            let found =
-                run_scheduled(&mut device, &case, Scheduler::Local, batch, capacity).expect("renders");
+            let schedule = Schedule { scheduler: Scheduler::Local, batch, capacity };
+            let found = run_scheduled(&mut device, &case, schedule).expect("renders");
             assert_eq!(found, expected, "{}, batch {batch}, capacity {capacity}", case.name);
         }
     }
