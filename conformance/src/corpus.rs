@@ -22,7 +22,7 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 44;
+pub const ROUNDS: u64 = 48;
 /// From this one on the draw stage is given what chance seldom brings about.
 const RARE: u64 = 32;
 /// From this one on it is given Gregory patches whose lines seem short.
@@ -256,25 +256,39 @@ fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
     record
 }
 
-/// A Gregory patch whose line v = 1/2, or u = 1/2, seems short from end to end, because the control points of the
-/// net that follows the blends along it are near each other, though its middle is far away.
+/// A surface that ends at half or a quarter of both parameters.
+fn near_middle(random: &mut fastrand::Rng) -> Surface {
+    let levels = [random.u32(2..=4), random.u32(2..=4)];
+    let [u, v] = levels.map(|level| (PARAM_ONE >> [1, 1, 1, 2][random.usize(0..4)]) - (PARAM_ONE >> level));
+    Surface { patch_id: random.u32(0..PATCHES), u, v, shape: levels[0] | levels[1] << 5 }
+}
+
+/// A Gregory patch whose line v = 1/2, or u = 1/2, seems straight and short, because the control points of the net
+/// that follows the blends along it are, though its middle is far away.
 fn short(random: &mut fastrand::Rng) -> [Patch; 2] {
-    let (along_u, far) = (random.bool(), random.f32() * 4.0 - 2.0);
     let [mut patch, mut record] = [Patch::default(); 2];
+    let (along_u, far) = (random.bool(), [0.3, 4.0][random.usize(0..2)] * (random.f32() * 2.0 - 1.0));
+    let (long, wide) = (0.1 * random.f32(), 0.1 + 0.4 * random.f32());
+    let [x, y, z] = [0, 1, 2].map(|_| random.f32() * 2.0 - 1.0);
     for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
         let k = if along_u { 4 * i + j } else { 4 * j + i };
-        // Along the line the shares that the net has are 7/9.
+        patch.x[k] = x + i as f32 * long;
+        patch.y[k] = y + (j as f32 / 1.5 - 1.0) * wide;
+        // The net has shares of 7/9 along the line.
         let away = if j % 3 == 0 { -7.0 / 3.0 } else { 0.5 };
-        patch.x[k] = if i % 3 == 0 { 0.0 } else { away * far };
-        patch.y[k] = j as f32 / 1.5 - 1.0;
-        patch.z[k] = random.f32() * 0.02;
+        patch.z[k] = z + i as f32 * long + if i % 3 == 0 { 0.0 } else { away * far };
     }
     for l in 0..8 {
-        record.x[l] = if (l < 4) == along_u { far } else { 0.0 };
-        (record.y[l], record.z[l]) = (patch.y[INNER[l % 4]], patch.z[INNER[l % 4]]);
+        let at = INNER[l % 4];
+        (record.x[l], record.y[l]) = (patch.x[at], patch.y[at]);
+        let i = if along_u { at / 4 } else { at % 4 };
+        record.z[l] = z + i as f32 * long + if (l < 4) == along_u { far } else { 0.0 };
     }
     [patch, record]
 }
+
+/// From two units away, so that z is up in the image.
+const ASIDE: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, -2.0];
 
 fn short_patches(random: &mut fastrand::Rng) -> Vec<Patch> {
     let (mut patches, records): (Vec<Patch>, Vec<Patch>) =
@@ -372,8 +386,8 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     let mut splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
     if round >= SHORT {
         patches = short_patches(random);
-        frame.rate = 1 << (round % 2);
-        splits = 2..=7;
+        objects.iter_mut().for_each(|object| object.to_eye = ASIDE);
+        (frame.rate, frame.flags) = (1 << (round % 2), 0);
     } else if round >= RARE {
         splits = rarely(&mut frame, round);
         if round % 4 == 2 {
@@ -383,12 +397,15 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     }
     // Whatever is not culled is drawn, however large; but Weber's rules cull what is at the deepest level.
     frame.levels = if frame.flags & FLAG_WEBER == 0 { 1 } else { MAX_LEVELS };
-    frame.bound = [4.0, 12.0, 40.0][random.usize(0..3)]; // now and then a neighbour may be larger: seams
+    // Now and then a neighbour may be larger: seams.
+    frame.bound =
+        if round >= SHORT { [3.0, 8.0][random.usize(0..2)] } else { [4.0, 12.0, 40.0][random.usize(0..3)] };
     // Fewer than there are tiles, some, more than are looked at at once.
-    let most = [3, 60, 60, 200][random.usize(0..4)];
+    let most = if round >= SHORT { 200 } else { [3, 60, 60, 200][random.usize(0..4)] };
     let mut draws = Vec::new();
     for _ in 0..400 {
-        let surface = surface(random, PATCHES, splits.clone());
+        let surface =
+            if round >= SHORT { near_middle(random) } else { surface(random, PATCHES, splits.clone()) };
         let verdict = bound_any(&frame, &objects, &patches, surface);
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {

@@ -19,6 +19,12 @@ INLINED void curve_at(__constant Frame *frame, __local const Grid *grid, Border 
     }
 }
 
+// From the row that the blends at the low end give to that of the high end, one coordinate.
+static float4 follow_row(uint zero, float4 low, float4 high) {
+    return (float4)(low.x, between(zero, low.y, high.y, THIRD), between(zero, low.z, high.z, mul(2.0f, THIRD)),
+                    high.w);
+}
+
 // Control points along a border of the net that follows the blends.
 static void followed(__constant Frame *frame, __local const Grid *grid, Border border, float4 *part) {
     const uint zero = frame->zero;
@@ -28,10 +34,7 @@ static void followed(__constant Frame *frame, __local const Grid *grid, Border b
     curve_at(frame, grid, border, border.start + border.size, curve);
     part_of(zero, border, curve, high);
     for (uint k = 0u; k < 3u; k++) {
-        part[k] = (float4)(between(zero, low[k].x, high[k].x, mul(number(0), THIRD)),
-                           between(zero, low[k].y, high[k].y, mul(number(1), THIRD)),
-                           between(zero, low[k].z, high[k].z, mul(number(2), THIRD)),
-                           between(zero, low[k].w, high[k].w, mul(number(3), THIRD)));
+        part[k] = follow_row(zero, low[k], high[k]);
     }
 }
 

@@ -29,13 +29,10 @@ fn followed(border: Border) -> Curve {
     return Curve(follow_row(low.x, high.x), follow_row(low.y, high.y), follow_row(low.z, high.z));
 }
 
+// From the row that the blends at the low end give to that of the high end, one coordinate.
 fn follow_row(low: vec4<f32>, high: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(
-        between(low.x, high.x, mul(float(0), THIRD)),
-        between(low.y, high.y, mul(float(1), THIRD)),
-        between(low.z, high.z, mul(float(2), THIRD)),
-        between(low.w, high.w, mul(float(3), THIRD)),
-    );
+        low.x, between(low.y, high.y, THIRD), between(low.z, high.z, mul(2.0, THIRD)), high.w);
 }
 
 // The curve of the net that the patch has where the parameter that runs along a border is `t`.

@@ -9,7 +9,7 @@ use crate::abi::{Frame, PARAM_ONE, SEAM_ALLOWANCE, Surface, THIRD};
 use crate::kernel::dice_gregory::{blends_at, evaluate_gregory};
 use crate::kernel::project::perspective;
 use crate::kernel::seam::{Border, Curve, Seam, is_short, seam};
-use crate::num::{abs, float, max, mul, sub};
+use crate::num::{abs, max, mul, sub};
 use crate::patch::gregory::mix;
 use crate::patch::{Faces, Net};
 
@@ -53,13 +53,12 @@ fn followed(net: &Net, faces: &Faces, frame: &Frame, border: Border) -> Curve {
         let (u, v) = border.at(t);
         border.part(&border.curve(&faces.net_at(net, blends_at(frame, u, v))))
     });
-    let mut part = [[0.0; 4]; 3];
-    for (c, part) in part.iter_mut().enumerate() {
-        for (k, point) in part.iter_mut().enumerate() {
-            *point = mix(low[c][k], high[c][k], mul(float(k as i32), THIRD));
-        }
-    }
-    part
+    [follow_row(low[0], high[0]), follow_row(low[1], high[1]), follow_row(low[2], high[2])]
+}
+
+/// From the row that the blends at the low end give to that of the high end, one coordinate.
+fn follow_row(low: [f32; 4], high: [f32; 4]) -> [f32; 4] {
+    [low[0], mix(low[1], high[1], THIRD), mix(low[2], high[2], mul(2.0, THIRD)), high[3]]
 }
 
 /// Is this end of a chord no farther from its middle, along columns and rows, than the longest border that is
