@@ -113,8 +113,14 @@ fn take(random: &mut fastrand::Rng) -> Parts {
     let most = [1, 20, 6000][random.usize(0..3)];
     let next_root = random.u32(0..1000);
     let patches = next_root + random.u32(0..most);
-    let limits = Limits { patches, batch, levels, stack_room, ..Limits::default() };
+    let mut limits = Limits { patches, batch, levels, stack_room, ..Limits::default() };
     let control = Control { stack: count, next_root, ..control(random) };
+    if count > 0 && random.u8(0..4) == 0 {
+        // The batch has room for all roots, and the stack for whatever may become of its entries, but not of both.
+        let wanted = random.u32(1..=count);
+        (limits.batch, limits.patches) = (count + wanted, next_root + wanted);
+        limits.stack_room = (2 * count + levels).saturating_sub(2) + random.u32(0..2 * wanted);
+    }
     let room = if stack.is_empty() { vec![Surface::default()] } else { stack };
     (Items::Count(1), vec![words(&[limits]), words(&room), words(&[control])])
 }
