@@ -63,6 +63,19 @@ const ALLOWED: &[Allowed] = &[
         operator: " + ",
         why: "the first run wraps around and is then the whole batch; the others are empty",
     },
+    Allowed { file: "local.wgsl", line: "if lane == 0u {", operator: " == ", why: "all read the same" },
+    Allowed {
+        file: "local.wgsl",
+        line: "if lane == 0u && index < arrayLength(&groups) {",
+        operator: " == ",
+        why: "all write the same",
+    },
+    Allowed {
+        file: "local.wgsl",
+        line: "if lane == 0u && index < arrayLength(&groups) {",
+        operator: " && ",
+        why: "all write the same, and fewer groups than a dimension has are as many as were asked for",
+    },
     Allowed {
         file: "balance.wgsl",
         line: "let run = (limits.groups + RUNS - 1u) / RUNS;",

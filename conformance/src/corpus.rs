@@ -116,13 +116,13 @@ fn take(random: &mut fastrand::Rng) -> Parts {
     let next_root = random.u32(0..1000);
     let patches = next_root + random.u32(0..most);
     let mut limits = Limits { patches, batch, levels, stack_room, ..Limits::default() };
-    if count > 0 && random.u8(0..4) == 0 {
-        // All of the stack, and some of the roots that wait, though fewer than the batch has room for.
-        let wanted = random.u32(1..=count);
-        (limits.patches, limits.batch) = (next_root + wanted, count + wanted);
-        limits.stack_room = 2 * count + levels + random.u32(0..2 * wanted);
-    }
     let control = Control { stack: count, next_root, ..control(random) };
+    if count > 0 && random.u8(0..4) == 0 {
+        // The batch has room for all roots, and the stack for whatever may become of its entries, but not of both.
+        let wanted = random.u32(1..=count);
+        (limits.batch, limits.patches) = (count + wanted, next_root + wanted);
+        limits.stack_room = (2 * count + levels).saturating_sub(2) + random.u32(0..2 * wanted);
+    }
     let room = if stack.is_empty() { vec![Surface::default()] } else { stack };
     (Items::Count(1), vec![words(&[limits]), words(&room), words(&[control])])
 }
