@@ -21,6 +21,8 @@ use crate::report::check_stage;
 
 /// Mutants a file where nobody asks for another number.
 const MOST: usize = 2;
+/// Mutants of a stage's own file where the comparison of that stage noticed none.
+const MORE: usize = 8;
 /// After this long a mutant counts as hanging; kernels that nobody changed are given four times as long.
 const PATIENCE: Duration = Duration::from_secs(30);
 /// Argument before file and number of a mutant, for the process that runs it.
@@ -172,19 +174,44 @@ fn run_all(files: &[File], allowed: &[Allowed]) -> ExitCode {
         control.iter().all(|fate| *fate == Fate::Survived),
         "unchanged kernels are at fault: {control:?}"
     );
-    let tasks: Vec<Task<'_>> = files.iter().flat_map(tasks).collect();
-    let fates = fates(&tasks.iter().map(|task| (task.file.name, task.number)).collect::<Vec<_>>());
+    let mut tasks: Vec<Task<'_>> = files.iter().flat_map(tasks).collect();
+    let mut fates = fates_of(&tasks);
+    // Where all that was tried crashed, some more may not.
+    let more: Vec<Task<'_>> = blind(&fates).flat_map(|stage| further(files, stage, &tasks)).collect();
+    fates.extend(fates_of(&more));
+    tasks.extend(more);
     print_table(files, &tasks, &fates);
     println!("{} mutants in {:.0} s", tasks.len(), started.elapsed().as_secs_f64());
-    let blind = Stage::ALL.into_iter().map(Stage::name).find(|&name| !fates.contains(&Fate::Noticed(name)));
-    let blind = blind.filter(|_| std::env::var_os("MUTANTS_OF").is_none());
-    if let Some(stage) = blind {
-        println!("no mutant was noticed by the comparison of {stage}");
-    }
+    let mut blind = blind(&fates).peekable();
+    let none_is_blind = blind.peek().is_none();
+    blind.for_each(|stage| println!("no mutant was noticed by the comparison of {stage}"));
     match survivors(&tasks, &fates, allowed) {
-        0 if blind.is_none() => ExitCode::SUCCESS,
+        0 if none_is_blind => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
     }
+}
+
+fn fates_of(tasks: &[Task<'_>]) -> Vec<Fate> {
+    fates(&tasks.iter().map(|task| (task.file.name, task.number)).collect::<Vec<_>>())
+}
+
+/// Stages whose comparison noticed nothing, if all files were tried.
+fn blind(fates: &[Fate]) -> impl Iterator<Item = &'static str> {
+    let all_files = std::env::var_os("MUTANTS_OF").is_none();
+    let names = Stage::ALL.into_iter().map(Stage::name);
+    names.filter(move |&name| all_files && !fates.contains(&Fate::Noticed(name)))
+}
+
+/// More mutants of a stage's own file, which have not been run yet.
+fn further<'a>(files: &'a [File], stage: &str, done: &[Task<'_>]) -> Vec<Task<'a>> {
+    let Some(file) = files.iter().find(|file| file.name.split('.').next() == Some(stage)) else {
+        return Vec::new();
+    };
+    let all: Vec<_> = mutants(file.source).into_iter().enumerate().collect();
+    let is_new =
+        |number: &usize| !done.iter().any(|task| task.file.name == file.name && task.number == *number);
+    let chosen = sample(all, MORE).into_iter().filter(|(number, _)| is_new(number));
+    chosen.map(|(number, mutant)| Task { file, number, mutant }).collect()
 }
 
 /// The mutants of a file that are to be run.

@@ -71,9 +71,10 @@ static bool is_short(__constant Frame *frame, const float4 *part) {
 }
 
 static bool may_be_drawn(__constant Frame *frame, const float4 *part) {
-    const float4 z = part[2];
-    const bool nearer = neg(z.x) < frame->near || neg(z.y) < frame->near || neg(z.z) < frame->near
-        || neg(z.w) < frame->near;
+    bool nearer = false;
+    for (uint k = 0u; k < 4u; k++) {
+        nearer = nearer || neg(component(part[2], k)) < frame->near;
+    }
     return !nearer && is_short(frame, part);
 }
 

@@ -115,9 +115,10 @@ fn longest_chord(border: Border) -> u32 {
 }
 
 fn may_be_drawn(part: Curve) -> bool {
-    let z = part.z;
-    let nearer = neg(z.x) < frame.near || neg(z.y) < frame.near || neg(z.z) < frame.near
-        || neg(z.w) < frame.near;
+    var nearer = false;
+    for (var k = 0u; k < 4u; k++) {
+        nearer = nearer || neg(part.z[k]) < frame.near;
+    }
     return !nearer && is_short(part);
 }
 
