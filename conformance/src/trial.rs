@@ -24,7 +24,7 @@ const MOST: usize = 2;
 /// Mutants of a stage's own file where the comparison of that stage noticed none.
 const MORE: usize = 8;
 /// After this long a mutant counts as hanging; kernels that nobody changed are given four times as long.
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(90);
 /// Argument before file and number of a mutant, for the process that runs it.
 const ONE: &str = "--mutant";
 /// In the place of a file: nothing is changed, and the number is that of a stage.
