@@ -22,11 +22,14 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 48;
+pub const ROUNDS: u64 = 52;
 /// From this one on the draw stage is given what chance seldom brings about.
 const RARE: u64 = 32;
 /// From this one on it is given Gregory patches whose lines seem short.
 const SHORT: u64 = 40;
+
+/// From this one on patches that look small reach behind the near plane.
+const CROSSING: u64 = 48;
 
 fn words<T: NoUninit>(entries: &[T]) -> Vec<u32> {
     bytemuck::cast_slice::<T, u8>(entries)
@@ -287,6 +290,8 @@ fn short(random: &mut fastrand::Rng) -> [Patch; 2] {
     [patch, record]
 }
 
+const IDENTITY: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+
 /// From two units away, so that z is up in the image.
 const ASIDE: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, -2.0];
 
@@ -298,6 +303,19 @@ fn short_patches(random: &mut fastrand::Rng) -> Vec<Patch> {
     }
     patches.extend(records);
     patches
+}
+
+/// A bent patch some pixels wide that begins before the near plane and ends beyond it: in eye space.
+fn crossing(random: &mut fastrand::Rng, frame: &Frame) -> Patch {
+    let mut patch = Patch::default();
+    let pixel = frame.near / frame.focal;
+    for k in 0..16 {
+        let mut jitter = || random.f32() * 2.0 - 1.0;
+        patch.x[k] = ((k / 4) as f32 * 6.0 - 9.0 + 8.0 * jitter()) * pixel;
+        patch.y[k] = ((k % 4) as f32 * 3.0 - 5.0 + 8.0 * jitter()) * pixel;
+        patch.z[k] = -frame.near * ([0.5, 0.9, 1.4, 1.8][k % 4] + 0.2 * jitter());
+    }
+    patch
 }
 
 fn bounds(random: &mut fastrand::Rng) -> Parts {
@@ -384,7 +402,11 @@ fn ribbons(frame: &Frame, object: &mut Object) {
 fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     let (mut frame, mut objects, mut patches) = scene(random);
     let mut splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
-    if round >= SHORT {
+    if round >= CROSSING {
+        patches = (0..PATCHES).map(|_| crossing(random, &frame)).collect();
+        objects.iter_mut().for_each(|object| object.to_eye = IDENTITY);
+        (frame.rate, frame.flags) = (1 << (round % 4), 0);
+    } else if round >= SHORT {
         patches = short_patches(random);
         objects.iter_mut().for_each(|object| object.to_eye = ASIDE);
         (frame.rate, frame.flags) = (1 << (round % 2), 0);
@@ -400,6 +422,9 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     // Now and then a neighbour may be larger: seams.
     frame.bound =
         if round >= SHORT { [3.0, 8.0][random.usize(0..2)] } else { [4.0, 12.0, 40.0][random.usize(0..3)] };
+    if round >= CROSSING {
+        frame.bound = 60.0; // whoever looks at a border alone takes it for short
+    }
     // Fewer than there are tiles, some, more than are looked at at once.
     let most = if round >= SHORT { 200 } else { [3, 60, 60, 200][random.usize(0..4)] };
     let mut draws = Vec::new();

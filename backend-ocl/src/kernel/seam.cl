@@ -73,7 +73,7 @@ static bool is_short(__constant Frame *frame, const float4 *part) {
 static bool may_be_drawn(__constant Frame *frame, const float4 *part) {
     bool nearer = false;
     for (uint k = 0u; k < 4u; k++) {
-        nearer = nearer || neg(component(part[2], k)) < frame->near;
+        nearer |= neg(component(part[2], k)) < frame->near;
     }
     return !nearer && is_short(frame, part);
 }
