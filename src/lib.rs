@@ -21,6 +21,7 @@ pub mod bpt;
 pub mod devices;
 pub mod error;
 pub mod generate;
+pub mod lengths;
 mod gregory;
 mod image;
 pub mod mscene;
@@ -34,7 +35,7 @@ mod timed;
 pub use micropoly_core as core;
 
 pub use crate::backend::{Backend, render};
-pub use crate::core::camera::{Camera, FrameOptions, Light, Material, Profile};
+pub use crate::core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile};
 pub use crate::core::render::Counts;
 pub use crate::core::schedule::Scheduler;
 pub use crate::error::{Error, Result};

@@ -239,9 +239,13 @@ fn bounds_of(objects: &[SceneObject]) -> (DVec3, DVec3) {
 }
 
 fn check_options(options: &FrameOptions) -> Result<()> {
-    if !(options.rate.is_power_of_two() && options.rate <= micropoly_core::abi::MAX_RATE) {
+    if !(1..=micropoly_core::abi::MAX_RATE).contains(&options.rate) {
         let problem = format!("a dice rate of {} is not possible", options.rate);
-        return Err(Error::scene(problem, "choose 1, 2, 4, 8 or 16"));
+        return Err(Error::scene(problem, "choose 1 to 16"));
+    }
+    if !(options.size >= 0.01 && options.size <= 1.0e6) {
+        let problem = format!("a micropolygon size of {} pixels is not possible", options.size);
+        return Err(Error::scene(problem, "choose a number of pixels from 0.01 to 1000000, for example 1"));
     }
     if !(options.bound > 0.0 && options.bound <= 1.0e6) {
         let problem = format!("a bound of {} pixels is not possible", options.bound);

@@ -95,8 +95,12 @@ pub struct Options {
     pub height: u32,
     /// Largest extent of a drawn surface, pixels.
     pub bound: f32,
-    /// Micropolygons a side of a drawn surface.
+    /// Most micropolygons a side of a drawn surface.
     pub dice: u32,
+    /// Length of a micropolygon in pixels.
+    pub micropolygon_size: f32,
+    /// How grids meet.
+    pub borders: &'static str,
     /// Levels.
     pub max_depth: u32,
     /// How the stack was worked off.
@@ -152,6 +156,8 @@ fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
         height: frame.height,
         bound: frame.bound,
         dice: frame.rate,
+        micropolygon_size: frame.size,
+        borders: frame.borders.name(),
         max_depth: frame.levels,
         scheduler: sizes.scheduler.name(),
         batch: sizes.batch,

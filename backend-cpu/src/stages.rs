@@ -184,10 +184,10 @@ fn draw_band(scene: Scene<'_>, grid: &mut Grid, band: &mut Band<'_>) {
         let object = &scene.objects[patch.object as usize];
         let net = Net::in_eye_space(patch, object);
         match patch.faces {
-            0 => dice(&net, scene.frame, draw.surface(), grid),
+            0 => dice(&net, scene.frame, *draw, grid),
             record => {
                 let faces = Faces::in_eye_space(&scene.patches[record as usize], object);
-                dice_gregory(&net, &faces, scene.frame, draw.surface(), grid);
+                dice_gregory(&net, &faces, scene.frame, *draw, grid);
             }
         }
         shade(scene.frame, object, grid);

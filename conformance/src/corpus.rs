@@ -8,11 +8,12 @@ use std::ops::RangeInclusive;
 
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
-use micropoly_core::abi::{
+use micropoly_core::abi::{PARAM_BITS, MAX_RATE, SPLIT_U, SPLIT_V,
     CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, Limits,
     MAX_LEVELS, MAX_SPLITS, Object, PARAM_ONE, Patch, Sample, Shared, Slot, Surface, Verdict,
 };
-use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
+use micropoly_core::border::{SIDES, Side};
+use micropoly_core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::kernel::bound::bound_any;
 use micropoly_core::kernel::scan::scan;
 use micropoly_core::known::question;
@@ -94,6 +95,7 @@ fn control(random: &mut fastrand::Rng) -> Control {
         culled: any(),
         drawn: any(),
         limited: any(),
+        micropolygons: any(),
         overflow: 0,
     }
 }
@@ -155,9 +157,12 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
         width: size.0,
         height: size.1,
         bound: [3.0, 8.0, 40.0][random.usize(0..3)],
-        rate: 1 << random.u32(0..=4),
+        rate: random.u32(1..=16),
+        size: [0.3, 1.0, 2.0][random.usize(0..3)],
+        borders: [Borders::Watertight, Borders::Watertight, Borders::Naive, Borders::Fixed][random.usize(0..4)],
         levels: random.u32(1..=41),
         cull_backfaces: random.bool(),
+        whole: random.u8(0..6) == 0,
         profile: if random.u8(0..4) == 0 { Profile::Weber2014 } else { Profile::Conservative },
     };
     let frame = camera.frame(&options, Vec3::splat(0.1), &lights[..random.usize(0..=2)]);
@@ -226,8 +231,38 @@ fn surface(random: &mut fastrand::Rng, patches: u32, splits: RangeInclusive<u32>
         };
         index * size
     };
-    let (u, v) = (start(levels[0]), start(levels[1]));
-    Surface { patch_id: random.u32(0..patches), u, v, shape: levels[0] | levels[1] << 5 }
+    let at = [start(levels[0]), start(levels[1])];
+    let patch_id = random.u32(0..patches);
+    descendant(random, patch_id, at, levels)
+}
+
+/// The surface of a patch that starts at these parameters and was halved so often along each, in any order, while
+/// its sides were divided somehow.
+fn descendant(random: &mut fastrand::Rng, patch_id: u32, at: [u32; 2], levels: [u32; 2]) -> Surface {
+    let mut surface = Surface::root(patch_id);
+    let seldom = [2, 8, u32::MAX][random.usize(0..3)];
+    while [surface.u_level(), surface.v_level()] != levels {
+        let left = [levels[0] - surface.u_level(), levels[1] - surface.v_level()];
+        let is_u = left[1] == 0 || (left[0] > 0 && random.bool());
+        let verdict = divided(random, surface, if is_u { SPLIT_U } else { SPLIT_V }, seldom);
+        let [low, high] = surface.halves(verdict);
+        let is_high = if is_u { at[0] >= high.u } else { at[1] >= high.v };
+        surface = if is_high { high } else { low };
+    }
+    surface
+}
+
+/// A verdict on a surface, where one in `seldom` of its live sides is divided.
+fn divided(random: &mut fastrand::Rng, surface: Surface, code: u32, seldom: u32) -> Verdict {
+    let mut sides = SIDES.map(|side| surface.side(side));
+    for (side, out) in sides.iter_mut().enumerate() {
+        let level = if side < 2 { surface.u_level() } else { surface.v_level() };
+        if out.steps == 0 && random.u32(0..seldom) == 0 {
+            *out = Side { steps: random.u32(1..=MAX_RATE), bits: PARAM_BITS - level };
+        }
+    }
+    let rates = [random.u32(1..=MAX_RATE), random.u32(1..=MAX_RATE)];
+    Verdict { code, ..Verdict::default() }.with_sides(sides, rates)
 }
 
 /// Number of patches of a scene; every third is a Gregory patch in half of all scenes.
@@ -263,7 +298,8 @@ fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
 fn near_middle(random: &mut fastrand::Rng) -> Surface {
     let levels = [random.u32(2..=4), random.u32(2..=4)];
     let [u, v] = levels.map(|level| (PARAM_ONE >> [1, 1, 1, 2][random.usize(0..4)]) - (PARAM_ONE >> level));
-    Surface { patch_id: random.u32(0..PATCHES), u, v, shape: levels[0] | levels[1] << 5 }
+    let patch_id = random.u32(0..PATCHES);
+    descendant(random, patch_id, [u, v], levels)
 }
 
 /// A Gregory patch whose line v = 1/2, or u = 1/2, seems straight and short, because the control points of the net
@@ -345,14 +381,16 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
 fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
     let most = [3000, 80][random.usize(0..2)];
     let taken = random.u32(1..most);
-    let surfaces = (0..taken).map(|_| surface(random, PATCHES, 0..=18)).collect();
+    let surfaces: Vec<_> = (0..taken).map(|_| surface(random, PATCHES, 0..=18)).collect();
     let only = random.u32(0..8);
     let code = |random: &mut fastrand::Rng| {
         if only <= DRAW_LIMITED { only } else { random.u32(CULL..=DRAW_LIMITED) }
     };
-    let verdicts = (0..taken)
-        .map(|_| Verdict { code: code(random), columns: random.u32(..), rows: random.u32(..) })
-        .collect();
+    let verdict = |surface: &Surface| {
+        let code = code(random);
+        Verdict { columns: random.u32(..), rows: random.u32(..), ..divided(random, *surface, code, 3) }
+    };
+    let verdicts = surfaces.iter().map(verdict).collect();
     let before = Control { base: random.u32(0..1000), taken, waiting: random.u32(0..500), ..control(random) };
     (Control { fresh: 0, ..before }, surfaces, verdicts)
 }
@@ -390,6 +428,7 @@ fn rarely(frame: &mut Frame, round: u64) -> RangeInclusive<u32> {
     let is_cut = round % 2 == 1;
     frame.flags = if is_cut { FLAG_CULL_BACKFACES } else { 0 };
     frame.rate = if is_cut { 1 } else { 1 << (round / 2 % 2) };
+    frame.density = 1.0 / 16.0;
     if is_cut { 0..=4 } else { 2..=4 }
 }
 

@@ -60,8 +60,20 @@ shared_constants! {
     const PARAM_STEP: f32 = 1.0 / PARAM_ONE as f32;
     /// A range is never halved more often than this along one parameter.
     const MAX_SPLITS: u32 = 20;
+    /// Log2 of [`MAX_RATE`].
+    const MAX_RATE_BITS: u32 = PARAM_BITS - MAX_SPLITS;
     /// Largest dice rate (micropolygons a side): a fully split range still has this many parameter steps.
-    const MAX_RATE: u32 = 1 << (PARAM_BITS - MAX_SPLITS);
+    const MAX_RATE: u32 = 1 << MAX_RATE_BITS;
+    /// A number of five bits, of which several are packed into a word.
+    const FIVE_BITS: u32 = 31;
+    /// Bits of a border word that tell how its side is divided (see [`crate::border`]).
+    const SIDE_MASK: u32 = (1 << CORNER_SHIFT) - 1;
+    /// Above them a border word has a corner.
+    const CORNER_SHIFT: u32 = 10;
+    /// Where [`Draw::shape`] has the number of micropolygons along `u`.
+    const RATE_U_SHIFT: u32 = 10;
+    /// Where [`Draw::shape`] has the number of micropolygons along `v`.
+    const RATE_V_SHIFT: u32 = 15;
     /// Sub-pixel bits of a snapped vertex.
     const SUBPIXEL_BITS: u32 = 8;
     /// Snapped units a pixel.
@@ -80,8 +92,6 @@ shared_constants! {
     const FLAT: f32 = 1.0 / (1 << 12) as f32;
     /// Squared sine of the angle between two tangents that are taken for parallel.
     const PARALLEL: f32 = 1.0 / (1 << 24) as f32;
-    /// A seam compares lengths with the bound and a little more, so that rounding never leaves a chord out.
-    const SEAM_ALLOWANCE: f32 = 1.0 + 1.0 / 256.0;
     /// Largest value of an inner Bernstein weight, 3·t·(1 - t)².
     const INNER_MOST: f32 = 4.0 / 9.0;
     /// From one of four control points to the next, as a share of a parameter range.
@@ -96,7 +106,7 @@ shared_constants! {
     /// Most surfaces that a group of LOCAL can draw meanwhile.
     const LOCAL_DRAWS: u32 = LOCAL_BATCH * LOCAL_BATCHES;
     /// Largest stack of a group of LOCAL: it lies in local memory, 8 KiB of it.
-    const LOCAL_STACK: u32 = 512;
+    const LOCAL_STACK: u32 = 256;
 
     /// Verdict of `bound`: not visible.
     const CULL: u32 = 0;
@@ -113,6 +123,13 @@ shared_constants! {
     const FLAG_CULL_BACKFACES: u32 = 1;
     /// Bit of [`Frame::flags`]: bound and blend as Weber's program does, to compare with his figures.
     const FLAG_WEBER: u32 = 2;
+    /// Bit of [`Frame::flags`]: every grid has [`Frame::rate`] × [`Frame::rate`] micropolygons.
+    const FLAG_FIXED: u32 = 4;
+    /// Bit of [`Frame::flags`]: borders are regular, whatever their neighbours have: to see the cracks.
+    const FLAG_NAIVE: u32 = 8;
+    /// Bit of [`Frame::flags`]: nothing is culled or cut off, for a mesh that is whole; what is out of view gets as
+    /// fine as if the camera had turned to it.
+    const FLAG_WHOLE: u32 = 16;
     /// Weber profile: nothing farther than this is drawn.
     const WEBER_FAR: f32 = 1000.0;
     /// Weber profile: pixels around the image in which surfaces are kept.
@@ -290,8 +307,12 @@ shared_structs! {
         bound: f32,
         /// Number of levels `k`; a surface of level `k - 1` is never split.
         levels: u32,
-        /// Dice rate: a drawn surface becomes `rate` × `rate` micropolygons. A power of two.
+        /// Largest dice rate: a drawn surface becomes up to `rate` × `rate` micropolygons.
         rate: u32,
+        /// Micropolygons a pixel, along a line: 1 / their largest length. `rate` of them are at least `bound` long.
+        density: f32,
+        /// A point in view is at least this share of its largest coordinate before the eye; 1 at most.
+        around: f32,
         /// `FLAG_…` bits.
         flags: u32,
         /// Always 0, which only the host knows: device kernels XOR it into every float result, so that their
@@ -315,8 +336,11 @@ shared_structs! {
         u: u32,
         /// Low end of the range of `v` in units of 2⁻²⁴.
         v: u32,
-        /// Bits 0-4: times `u` was halved; 5-9: times `v` was; the rest is zero, kept for edge states.
+        /// Bits 0-4: times `u` was halved; 5-9: times `v` was; the rest is zero.
         shape: u32,
+        /// A word each for side and corner 0 to 3: how the side is divided, and where the corner has strayed to
+        /// (see [`crate::border`]).
+        borders: [u32; 4],
     }
 
     /// A surface to be diced, and the pixels it can touch.
@@ -327,8 +351,10 @@ shared_structs! {
         u: u32,
         /// Low end of the range of `v` in units of 2⁻²⁴.
         v: u32,
-        /// As in [`Surface`].
+        /// As in [`Surface`]; bits 10-14: micropolygons along `u`; 15-19: along `v`.
         shape: u32,
+        /// As in [`Surface`].
+        borders: [u32; 4],
         /// Columns of pixels it can touch: first (low half) and one past the last (high half).
         columns: u32,
         /// Rows of pixels it can touch: first (low half) and one past the last (high half).
@@ -343,6 +369,10 @@ shared_structs! {
         columns: u32,
         /// As [`Draw::rows`]; only for drawn surfaces.
         rows: u32,
+        /// How the sides along `u` are divided (two of ten bits), and above them micropolygons along `u`.
+        along_u: u32,
+        /// How the sides along `v` are divided, and micropolygons along `v`.
+        along_v: u32,
     }
 
     /// Where the output of one surface of the batch goes.
@@ -379,6 +409,8 @@ shared_structs! {
         drawn: u32,
         /// Drawn surfaces that would have been split at a deeper level, since the host last asked.
         limited: u32,
+        /// Micropolygons of the drawn surfaces, since the host last asked.
+        micropolygons: u32,
         /// Entries that a buffer would have needed beyond its size; 0 = everything fitted.
         overflow: u32,
     }
@@ -407,6 +439,8 @@ shared_structs! {
         culled: u32,
         /// Drawn surfaces that would have been split at a deeper level, in the round.
         limited: u32,
+        /// Micropolygons of the drawn surfaces, in the round.
+        micropolygons: u32,
         /// Largest number of surfaces that lay on its stack in the round.
         peak: u32,
         /// Surfaces bounded since the frame began.
@@ -447,9 +481,9 @@ shared_structs! {
         depth: u32,
         /// Patch of the micropolygon.
         patch_id: u32,
-        /// Low corner of the micropolygon, `u` in units of 2⁻²⁴.
+        /// Which micropolygon of its surface: the surface's low `u`, and a sixteenth of its size a column.
         u: u32,
-        /// Low corner of the micropolygon, `v` in units of 2⁻²⁴.
+        /// The surface's low `v`, and a sixteenth of its size a row.
         v: u32,
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Trigonometry comes from `libm`, so that a scene gives the same bits on every platform.
 
-use crate::abi::{FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, MAX_FOCAL, MAX_LIGHTS, MIN_NEAR, Object};
+use crate::abi::{FLAG_CULL_BACKFACES, FLAG_FIXED, FLAG_NAIVE, FLAG_WEBER, FLAG_WHOLE, Frame, MAX_FOCAL, MAX_LIGHTS, MIN_NEAR, Object};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// A perspective camera.
@@ -69,7 +69,39 @@ impl Profile {
     const fn flag(self) -> u32 {
         match self {
             Self::Conservative => 0,
-            Self::Weber2014 => FLAG_WEBER,
+            Self::Weber2014 => FLAG_WEBER | FLAG_FIXED | FLAG_NAIVE,
+        }
+    }
+}
+
+/// How the grids of neighbouring surfaces meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Borders {
+    /// They share all vertices on their common side: no cracks ([`crate::border`]).
+    #[default]
+    Watertight,
+    /// Each is regular up to its border: cracks, to compare with.
+    Naive,
+    /// Naive, and every grid has as many micropolygons: as Weber 2014 dices.
+    Fixed,
+}
+
+impl Borders {
+    /// Its name, on the command line and in statistics.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Watertight => "watertight",
+            Self::Naive => "naive",
+            Self::Fixed => "fixed",
+        }
+    }
+
+    const fn flag(self) -> u32 {
+        match self {
+            Self::Watertight => 0,
+            Self::Naive => FLAG_NAIVE,
+            Self::Fixed => FLAG_NAIVE | FLAG_FIXED,
         }
     }
 }
@@ -83,12 +115,18 @@ pub struct FrameOptions {
     pub height: u32,
     /// Largest extent of a drawn surface on screen, in pixels (Weber 2014: 8).
     pub bound: f32,
-    /// Micropolygons a side of a drawn surface: 1, 2, 4, 8 or 16.
+    /// Most micropolygons a side of a drawn surface: 1 to 16.
     pub rate: u32,
+    /// Length of a micropolygon in pixels; they are larger where `rate` of them would not be as long as `bound`.
+    pub size: f32,
+    /// How the grids of neighbouring surfaces meet.
+    pub borders: Borders,
     /// Levels `k`: a surface is split at most `k - 1` times (Weber 2014: 23).
     pub levels: u32,
     /// Skip grids that show only their back.
     pub cull_backfaces: bool,
+    /// Nothing is culled or cut off: for a mesh that is whole ([`FLAG_WHOLE`]).
+    pub whole: bool,
     /// Rules by which surfaces are culled, split and drawn.
     pub profile: Profile,
 }
@@ -98,12 +136,29 @@ impl Default for FrameOptions {
         Self {
             width: 1280,
             height: 720,
-            bound: 8.0,
-            rate: 8,
+            bound: 16.0,
+            rate: 16,
+            size: 1.0,
+            borders: Borders::Watertight,
             levels: 23,
             cull_backfaces: false,
+            whole: false,
             profile: Profile::Conservative,
         }
+    }
+}
+
+impl FrameOptions {
+    /// Micropolygons a pixel.
+    fn density(&self) -> f32 {
+        let size = f64::from(self.size).max(f64::from(self.bound) / f64::from(self.rate));
+        (1.0 / size) as f32
+    }
+
+    const fn flags(&self) -> u32 {
+        let backfaces = if self.cull_backfaces { FLAG_CULL_BACKFACES } else { 0 };
+        let whole = if self.whole { FLAG_WHOLE } else { 0 };
+        self.profile.flag() | self.borders.flag() | backfaces | whole
     }
 }
 
@@ -148,7 +203,9 @@ impl Camera {
             bound: options.bound,
             levels: options.levels,
             rate: options.rate,
-            flags: options.profile.flag() | if options.cull_backfaces { FLAG_CULL_BACKFACES } else { 0 },
+            density: options.density(),
+            around: self.around(options),
+            flags: options.flags(),
             ambient: ambient.to_array(),
             ..Frame::default()
         };
@@ -157,6 +214,12 @@ impl Camera {
             frame.light_count = index as u32 + 1;
         }
         frame
+    }
+
+    /// See [`Frame::around`]: the reciprocal of the largest slope in view, or a little less.
+    fn around(&self, options: &FrameOptions) -> f32 {
+        let half = 0.5 * f64::from(options.width.max(options.height));
+        (0.999 / (half / self.focal(options.height)).max(1.0)) as f32
     }
 
     fn light(&self, light: &Light) -> ([f32; 4], [f32; 3]) {

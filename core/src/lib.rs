@@ -25,6 +25,7 @@
 
 pub mod abi;
 pub mod backend;
+pub mod border;
 pub mod camera;
 pub mod error;
 pub mod kernel;

@@ -57,12 +57,12 @@ impl Load {
 }
 
 impl Counts {
-    fn add(&mut self, control: &Control, rate: u32) {
+    fn add(&mut self, control: &Control) {
         self.processed += u64::from(control.processed);
         self.drawn += u64::from(control.drawn);
         self.culled += u64::from(control.culled);
         self.depth_limited += u64::from(control.limited);
-        self.micropolygons = self.drawn * u64::from(rate) * u64::from(rate);
+        self.micropolygons += u64::from(control.micropolygons);
         self.max_stack = u64::from(control.peak);
         self.roots_taken = u64::from(control.next_root);
     }
@@ -237,7 +237,7 @@ impl FramePlan {
                 Step::Draw => self.draw(device, buffers)?,
                 Step::Ask => {
                     let control = ask(device, buffers)?;
-                    counts.add(&control, self.frame.rate);
+                    counts.add(&control);
                     progress(&counts);
                     schedule.answer(&control);
                 }
@@ -280,7 +280,7 @@ impl FramePlan {
         let mut limits = self.limits();
         loop {
             let control = ask(device, buffers)?;
-            counts.add(&control, self.frame.rate);
+            counts.add(&control);
             progress(&counts);
             let count = control.stack + self.sizes.patches - control.next_root;
             if count == 0 {
@@ -409,7 +409,7 @@ fn ask<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<Control, D::
         let excess = u64::from(control.overflow);
         return Err(PlanError::Overflow { buffer: "surface stack or draw", excess }.into());
     }
-    let rest = Control { processed: 0, culled: 0, drawn: 0, limited: 0, ..control };
+    let rest = Control { processed: 0, culled: 0, drawn: 0, limited: 0, micropolygons: 0, ..control };
     device.write(&b.control, &[rest])?;
     Ok(control)
 }

@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
-use micropoly::{Backend, Batch, FrameOptions, Profile, RenderOptions, Scheduler};
+use micropoly::{Backend, Batch, Borders, FrameOptions, Profile, RenderOptions, Scheduler};
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -169,12 +169,20 @@ pub(crate) struct FrameArguments {
     /// Image size in pixels.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = resolution)]
     res: (u32, u32),
-    /// Split surfaces until they are at most this many pixels long.
-    #[arg(long, value_name = "PIXELS", default_value = "8", allow_negative_numbers = true, value_parser = pixels)]
-    bound: f32,
-    /// Micropolygons a side of a drawn surface: 1, 2, 4, 8 or 16.
-    #[arg(long, value_name = "N", default_value = "8", allow_negative_numbers = true, value_parser = rate)]
-    dice: u32,
+    /// Split surfaces until they are at most this many pixels long; unless given, as long as --dice micropolygons
+    /// are. [8 for --profile weber2014]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = pixels)]
+    bound: Option<f32>,
+    /// Most micropolygons a side of a drawn surface, from 1 to 16. [default: 16; 8 for --profile weber2014]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = value_parser!(u32).range(1..=i64::from(MAX_RATE)))]
+    dice: Option<u32>,
+    /// Length of a micropolygon in pixels; larger where --dice of them would not be as long as --bound.
+    #[arg(long, value_name = "PIXELS", default_value = "1", allow_negative_numbers = true, value_parser = pixels)]
+    micropolygon_size: f32,
+    /// How the grids of neighbouring surfaces meet; all but watertight leave cracks, and are there to compare with.
+    #[arg(long, value_enum, default_value_t = BordersChoice::Watertight)]
+    borders: BordersChoice,
     /// Levels of subdivision: a patch is halved at most N - 1 times.
     #[arg(long, value_name = "N", default_value = "23", allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_LEVELS)))]
@@ -207,6 +215,10 @@ pub(crate) struct FrameArguments {
 }
 
 impl FrameArguments {
+    fn is_weber(&self) -> bool {
+        self.profile == ProfileChoice::Weber2014
+    }
+
     pub(crate) fn options(&self) -> RenderOptions {
         let (width, height) = self.res;
         let batch = match (self.batch, self.memory) {
@@ -214,13 +226,18 @@ impl FrameArguments {
             (None, Some(bytes)) => Batch::Memory(bytes),
             (None, None) => Batch::default(),
         };
+        let rate = self.dice.unwrap_or(if self.is_weber() { 8 } else { MAX_RATE });
+        let bound = if self.is_weber() { 8.0 } else { rate as f32 * self.micropolygon_size };
         let frame = FrameOptions {
             width,
             height,
-            bound: self.bound,
-            rate: self.dice,
+            bound: self.bound.unwrap_or(bound),
+            rate,
+            size: self.micropolygon_size,
+            borders: self.borders.into(),
             levels: self.max_depth,
             cull_backfaces: self.cull_backfaces,
+            whole: false,
             profile: self.profile.into(),
         };
         RenderOptions {
@@ -291,6 +308,26 @@ impl From<ProfileChoice> for Profile {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BordersChoice {
+    /// They have the same vertices on their common side: no cracks.
+    Watertight,
+    /// Each is regular up to its border.
+    Naive,
+    /// As naive, and all have as many micropolygons as --dice says (Weber 2014).
+    Fixed,
+}
+
+impl From<BordersChoice> for Borders {
+    fn from(choice: BordersChoice) -> Self {
+        match choice {
+            BordersChoice::Watertight => Self::Watertight,
+            BordersChoice::Naive => Self::Naive,
+            BordersChoice::Fixed => Self::Fixed,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ProgressStyle {
     /// A bar if standard error is a terminal, else plain lines.
     Auto,
@@ -349,13 +386,6 @@ fn pixels(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(value) if (0.01..=1.0e6).contains(&value) => Ok(value),
         _ => Err("choose a number of pixels from 0.01 to 1000000".into()),
-    }
-}
-
-fn rate(text: &str) -> Result<u32, String> {
-    match text.parse::<u32>() {
-        Ok(value) if value.is_power_of_two() && value <= MAX_RATE => Ok(value),
-        _ => Err("choose 1, 2, 4, 8 or 16".into()),
     }
 }
 

@@ -4,7 +4,13 @@
 #define PARAM_ONE 16777216u
 #define PARAM_STEP 5.9604645e-8f
 #define MAX_SPLITS 20u
+#define MAX_RATE_BITS 4u
 #define MAX_RATE 16u
+#define FIVE_BITS 31u
+#define SIDE_MASK 1023u
+#define CORNER_SHIFT 10u
+#define RATE_U_SHIFT 10u
+#define RATE_V_SHIFT 15u
 #define SUBPIXEL_BITS 8u
 #define SUBPIXELS 256
 #define GUARD_BAND 1.6e4f
@@ -13,14 +19,13 @@
 #define LENGTH_TINY 9.094947e-13f
 #define FLAT 2.4414063e-4f
 #define PARALLEL 5.9604645e-8f
-#define SEAM_ALLOWANCE 1.0039063e0f
 #define INNER_MOST 4.4444445e-1f
 #define THIRD 3.3333334e-1f
 #define SHADE_TINY 1e-30f
 #define LOCAL_BATCH 64u
 #define LOCAL_BATCHES 8u
 #define LOCAL_DRAWS 512u
-#define LOCAL_STACK 512u
+#define LOCAL_STACK 256u
 #define CULL 0u
 #define DRAW 1u
 #define SPLIT_U 2u
@@ -28,6 +33,9 @@
 #define DRAW_LIMITED 4u
 #define FLAG_CULL_BACKFACES 1u
 #define FLAG_WEBER 2u
+#define FLAG_FIXED 4u
+#define FLAG_NAIVE 8u
+#define FLAG_WHOLE 16u
 #define WEBER_FAR 1e3f
 #define WEBER_MARGIN 3.2e1f
 #define WEBER_TINY 1e-12f
@@ -59,6 +67,8 @@ typedef struct {
     float bound;
     uint levels;
     uint rate;
+    float density;
+    float around;
     uint flags;
     uint zero;
     uint light_count;
@@ -72,6 +82,7 @@ typedef struct {
     uint u;
     uint v;
     uint shape;
+    uint borders[4];
 } Surface;
 
 typedef struct {
@@ -79,6 +90,7 @@ typedef struct {
     uint u;
     uint v;
     uint shape;
+    uint borders[4];
     uint columns;
     uint rows;
 } Draw;
@@ -87,6 +99,8 @@ typedef struct {
     uint code;
     uint columns;
     uint rows;
+    uint along_u;
+    uint along_v;
 } Verdict;
 
 typedef struct {
@@ -107,6 +121,7 @@ typedef struct {
     uint culled;
     uint drawn;
     uint limited;
+    uint micropolygons;
     uint overflow;
 } Control;
 
@@ -122,6 +137,7 @@ typedef struct {
     uint processed;
     uint culled;
     uint limited;
+    uint micropolygons;
     uint peak;
     uint load;
 } Group;

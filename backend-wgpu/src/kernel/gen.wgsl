@@ -4,7 +4,13 @@ const PARAM_BITS: u32 = 24u;
 const PARAM_ONE: u32 = 16777216u;
 const PARAM_STEP: f32 = 5.9604645e-8f;
 const MAX_SPLITS: u32 = 20u;
+const MAX_RATE_BITS: u32 = 4u;
 const MAX_RATE: u32 = 16u;
+const FIVE_BITS: u32 = 31u;
+const SIDE_MASK: u32 = 1023u;
+const CORNER_SHIFT: u32 = 10u;
+const RATE_U_SHIFT: u32 = 10u;
+const RATE_V_SHIFT: u32 = 15u;
 const SUBPIXEL_BITS: u32 = 8u;
 const SUBPIXELS: i32 = 256i;
 const GUARD_BAND: f32 = 1.6e4f;
@@ -13,14 +19,13 @@ const FAR_OFF: f32 = 1.048576e6f;
 const LENGTH_TINY: f32 = 9.094947e-13f;
 const FLAT: f32 = 2.4414063e-4f;
 const PARALLEL: f32 = 5.9604645e-8f;
-const SEAM_ALLOWANCE: f32 = 1.0039063e0f;
 const INNER_MOST: f32 = 4.4444445e-1f;
 const THIRD: f32 = 3.3333334e-1f;
 const SHADE_TINY: f32 = 1e-30f;
 const LOCAL_BATCH: u32 = 64u;
 const LOCAL_BATCHES: u32 = 8u;
 const LOCAL_DRAWS: u32 = 512u;
-const LOCAL_STACK: u32 = 512u;
+const LOCAL_STACK: u32 = 256u;
 const CULL: u32 = 0u;
 const DRAW: u32 = 1u;
 const SPLIT_U: u32 = 2u;
@@ -28,6 +33,9 @@ const SPLIT_V: u32 = 3u;
 const DRAW_LIMITED: u32 = 4u;
 const FLAG_CULL_BACKFACES: u32 = 1u;
 const FLAG_WEBER: u32 = 2u;
+const FLAG_FIXED: u32 = 4u;
+const FLAG_NAIVE: u32 = 8u;
+const FLAG_WHOLE: u32 = 16u;
 const WEBER_FAR: f32 = 1e3f;
 const WEBER_MARGIN: f32 = 3.2e1f;
 const WEBER_TINY: f32 = 1e-12f;
@@ -59,6 +67,8 @@ struct Frame {
     bound: f32,
     levels: u32,
     rate: u32,
+    density: f32,
+    around: f32,
     flags: u32,
     zero: u32,
     light_count: u32,
@@ -72,6 +82,7 @@ struct Surface {
     u: u32,
     v: u32,
     shape: u32,
+    borders: array<u32, 4>,
 }
 
 struct Draw {
@@ -79,6 +90,7 @@ struct Draw {
     u: u32,
     v: u32,
     shape: u32,
+    borders: array<u32, 4>,
     columns: u32,
     rows: u32,
 }
@@ -87,6 +99,8 @@ struct Verdict {
     code: u32,
     columns: u32,
     rows: u32,
+    along_u: u32,
+    along_v: u32,
 }
 
 struct Slot {
@@ -107,6 +121,7 @@ struct Control {
     culled: u32,
     drawn: u32,
     limited: u32,
+    micropolygons: u32,
     overflow: u32,
 }
 
@@ -122,6 +137,7 @@ struct Group {
     processed: u32,
     culled: u32,
     limited: u32,
+    micropolygons: u32,
     peak: u32,
     load: u32,
 }

@@ -7,7 +7,7 @@ use micropoly_core::abi::{
 use micropoly_core::kernel::balance;
 use micropoly_core::stage::Items;
 
-use super::{PATCHES, Parts, control, empty, scene, words};
+use super::{PATCHES, Parts, control, descendant, empty, scene, words};
 
 /// One of some numbers.
 fn one_of<const N: usize>(random: &mut fastrand::Rng, numbers: [u32; N]) -> u32 {
@@ -28,6 +28,7 @@ fn group(random: &mut fastrand::Rng) -> Group {
         processed: any(),
         culled: any(),
         limited: any(),
+        micropolygons: any(),
         peak: any(),
         load: any(),
     }
@@ -37,8 +38,9 @@ fn group(random: &mut fastrand::Rng) -> Group {
 fn surface_of_level(random: &mut fastrand::Rng, level: u32) -> Surface {
     let along_u = random.u32(level.saturating_sub(MAX_SPLITS)..=level.min(MAX_SPLITS));
     let mut start = |level: u32| random.u32(0..1 << level) * (PARAM_ONE >> level);
-    let (u, v) = (start(along_u), start(level - along_u));
-    Surface { patch_id: random.u32(0..PATCHES), u, v, shape: along_u | (level - along_u) << 5 }
+    let at = [start(along_u), start(level - along_u)];
+    let patch_id = random.u32(0..PATCHES);
+    descendant(random, patch_id, at, [along_u, level - along_u])
 }
 
 /// A stack of so many surfaces, of any levels at which it is safe.
@@ -126,7 +128,7 @@ pub(super) fn deal(random: &mut fastrand::Rng) -> Parts {
     let control = balance::balance(control, &limits, &mut groups);
     let entries = count * limits.stack_room as usize;
     let stack = (0..entries).map(|_| surface_of_level(random, 9)).collect::<Vec<_>>();
-    let draw = |patch_id| Draw { patch_id, u: 1, v: 2, shape: 3, columns: 4, rows: 5 };
+    let draw = |patch_id| Draw { patch_id, u: 1, v: 2, shape: 3, borders: [6, 7, 8, 9], columns: 4, rows: 5 };
     let fresh: Vec<Draw> = (0..(count * LOCAL_DRAWS as usize) as u32).map(draw).collect();
     let buffers = vec![
         words(&[control]),

@@ -31,6 +31,8 @@ pub struct Totals {
     pub culled: u32,
     /// Drawn surfaces that would have been split at a deeper level.
     pub limited: u32,
+    /// Micropolygons of the drawn surfaces.
+    pub micropolygons: u32,
     /// Sum of the largest numbers on their stacks.
     pub peak: u32,
 }
@@ -45,6 +47,7 @@ impl Totals {
             processed: sum.processed + group.processed,
             culled: sum.culled + group.culled,
             limited: sum.limited + group.limited,
+            micropolygons: sum.micropolygons + group.micropolygons,
             peak: sum.peak + group.peak,
         })
     }
@@ -98,6 +101,7 @@ pub const fn counted(control: Control, limits: &Limits, all: Totals) -> Control 
         culled: control.culled + all.culled,
         drawn: control.drawn + all.draws,
         limited: control.limited + all.limited,
+        micropolygons: control.micropolygons + all.micropolygons,
         overflow: (waiting + all.draws).saturating_sub(limits.draw_room),
     }
 }

@@ -4,12 +4,16 @@
 //! is ever culled, and the control polygons are at least as long as the curves they control.
 
 use crate::abi::{
-    CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_WEBER, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING,
-    SEAM_ALLOWANCE, SPLIT_U, SPLIT_V, Surface, Verdict,
+    CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_WEBER, FLAG_WHOLE, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING,
+    SPLIT_U, SPLIT_V, Surface, Verdict,
 };
+use crate::border::Side;
+use crate::kernel::dice::position_at;
+use crate::kernel::dice_gregory::evaluate_gregory;
 use crate::kernel::project::perspective;
+use crate::kernel::sides::{Lengths, Strays, divide, polygon, rates, sides_of_gregory};
 use crate::kernel::weber;
-use crate::num::{add, clamp, float, floor, max, min, mul, neg, recip, sqrt, sub};
+use crate::num::{add, clamp, float, floor, largest3, max, min, mul, neg, recip, scale3, sqrt, sub};
 use crate::patch::net::fold;
 use crate::patch::{Faces, Net};
 
@@ -48,6 +52,8 @@ pub fn bound_gregory(
 
 /// Control hull of a surface, and how far outside of it the surface can be.
 struct Hull {
+    /// Of the whole patch.
+    whole: Net,
     part: Net,
     /// What rounding can do, in eye space.
     slack: f32,
@@ -57,6 +63,7 @@ struct Hull {
 
 /// How a surface of a Gregory patch differs from the one whose hull is known.
 struct Apart {
+    faces: Faces,
     /// Largest distance between the two along any axis.
     spread: f32,
     /// Control points of one that is even nearer: its lengths are the surface's, but it bounds nothing.
@@ -68,7 +75,7 @@ impl Hull {
     fn of_bezier(patch: &Patch, object: &Object, surface: Surface) -> Self {
         let whole = Net::in_eye_space(patch, object);
         let slack = mul(whole.extent(), ROUNDING);
-        Self { part: whole.restricted(surface), slack, apart: None }
+        Self { part: whole.restricted(surface), whole, slack, apart: None }
     }
 
     #[inline(always)]
@@ -81,7 +88,7 @@ impl Hull {
         let part = whole.restricted(surface);
         let mut follower = part;
         faces.follow(&mut follower, surface, exchanged);
-        Self { part, slack, apart: Some(Apart { spread, follower }) }
+        Self { whole, part, slack, apart: Some(Apart { faces, spread, follower }) }
     }
 
     #[inline(always)]
@@ -98,6 +105,23 @@ impl Hull {
         sub(neg(fold(&self.part.z, max)), self.spread())
     }
 
+    /// Largest distance of the surface from the eye plane.
+    #[inline(always)]
+    fn farthest(&self) -> f32 {
+        add(neg(fold(&self.part.z, min)), self.spread())
+    }
+
+    /// Corners that have strayed from the surface.
+    #[inline(always)]
+    fn strays(&self, frame: &Frame, surface: Surface) -> Option<Strays> {
+        match &self.apart {
+            None => Strays::of(frame, surface, |u, v| position_at(&self.whole, u, v)),
+            Some(apart) => Strays::of(frame, surface, |u, v| {
+                evaluate_gregory(&self.whole, &apart.faces, frame, u, v).point
+            }),
+        }
+    }
+
     /// What the image shows of a hull that lies beyond the near plane, `nearest` away.
     #[inline(always)]
     fn seen(&self, frame: &Frame, nearest: f32, x: &[f32; 16], y: &[f32; 16]) -> Seen {
@@ -112,16 +136,16 @@ impl Hull {
         Seen { x: Reach::of(x), y: Reach::of(y), margin }
     }
 
-    /// Lengths along u and along v on screen, where the hull is seen at `x` and `y`.
+    /// Lengths on screen of a hull whose control points are measured to be at `points`.
     #[inline(always)]
-    fn extents(&self, frame: &Frame, x: &[f32; 16], y: &[f32; 16]) -> (f32, f32) {
-        match &self.apart {
-            None => (length_u(x, y), length_v(x, y)),
-            Some(apart) => {
-                let (x, y) = on_screen(frame, &apart.follower);
-                (length_u(&x, &y), length_v(&x, &y))
-            }
-        }
+    fn lengths(&self, frame: &Frame, surface: Surface, points: &Net) -> Lengths {
+        let own = Lengths::new(polygons_u(points), polygons_v(points));
+        let Some(apart) = &self.apart else {
+            return own;
+        };
+        let sides = sides_of_gregory(frame, &self.whole, &apart.faces, surface, own.sides);
+        let points = measured(frame, &apart.follower);
+        Lengths::new(polygons_u(&points), polygons_v(&points)).with_sides(sides)
     }
 }
 
@@ -132,7 +156,7 @@ pub(super) fn margin(frame: &Frame, slack: f32, nearest: f32) -> f32 {
 }
 
 /// Least and largest of one coordinate on screen, in pixels from the optical axis.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub(super) low: f32,
     pub(super) high: f32,
@@ -142,6 +166,17 @@ impl Reach {
     #[inline(always)]
     pub(super) fn of(offsets: &[f32; 16]) -> Self {
         Self { low: fold(offsets, min), high: fold(offsets, max) }
+    }
+
+    #[inline(always)]
+    pub(super) const fn at(offset: f32) -> Self {
+        Self { low: offset, high: offset }
+    }
+
+    /// Both, and all that lies between them.
+    #[inline(always)]
+    pub(super) const fn joined(self, other: Self) -> Self {
+        Self { low: min(self.low, other.low), high: max(self.high, other.high) }
     }
 
     /// First pixel that it, widened by `margin`, can touch, and one past the last; within the image.
@@ -154,60 +189,86 @@ impl Reach {
     }
 }
 
-/// Where on screen the control points of a surface lie.
+/// Where on screen the control points of a surface lie, and corners that have strayed from it.
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
     pub(super) x: Reach,
     pub(super) y: Reach,
-    /// How far the surface can be outside of their hull, pixels.
+    /// How far what is drawn can be outside of their hull, pixels.
     pub(super) margin: f32,
 }
 
 impl Seen {
-    /// Can any pixel's sample lie on the surface?
     #[inline(always)]
-    pub(super) fn is_in_view(&self, frame: &Frame) -> bool {
-        !PixelBox::around(frame, self, self.margin).is_empty()
-    }
-
-    /// The pixels that drawing it can touch: a seam may reach beyond the surface, by no more than the longest
-    /// border that can be drawn.
-    #[inline(always)]
-    fn pixels(&self, frame: &Frame) -> PixelBox {
-        PixelBox::around(frame, self, add(self.margin, mul(frame.bound, SEAM_ALLOWANCE)))
-    }
-
-    /// The verdict on a surface in view that is so long along u and along v.
-    #[inline(always)]
-    pub(super) fn verdict(&self, frame: &Frame, surface: Surface, extents: (f32, f32)) -> Verdict {
-        if max(extents.0, extents.1) <= frame.bound {
-            return verdict(DRAW, self.pixels(frame));
+    pub(super) fn with_strays(self, strays: Option<Strays>) -> Self {
+        match strays {
+            None => self,
+            Some(Strays { x, y, .. }) => Self { x: self.x.joined(x), y: self.y.joined(y), ..self },
         }
-        verdict(refine(frame, surface, extents, Some(frame.bound)), self.pixels(frame))
     }
+
+    /// The pixels that drawing it can touch; none if no pixel's sample can lie on the surface.
+    #[inline(always)]
+    pub(super) fn pixels(&self, frame: &Frame) -> PixelBox {
+        PixelBox::around(frame, self, self.margin)
+    }
+}
+
+/// The verdict on a surface in view that is so long.
+#[inline(always)]
+pub(super) fn by_length(frame: &Frame, surface: Surface, lengths: &Lengths, pixels: PixelBox) -> Verdict {
+    let code = by_extents(frame, surface, (lengths.u, lengths.v));
+    with_sides(frame, surface, lengths, verdict(code, pixels))
+}
+
+#[inline(always)]
+fn by_extents(frame: &Frame, surface: Surface, extents: (f32, f32)) -> u32 {
+    if max(extents.0, extents.1) <= frame.bound { DRAW } else { refine(frame, surface, extents) }
+}
+
+/// The verdict, with sides and rates.
+#[inline(always)]
+fn with_sides(frame: &Frame, surface: Surface, lengths: &Lengths, verdict: Verdict) -> Verdict {
+    let sides = divide(frame, surface, lengths);
+    let verdict = verdict.with_sides(sides, [0; 2]);
+    if verdict.code == SPLIT_U || verdict.code == SPLIT_V {
+        return verdict;
+    }
+    verdict.with_sides(sides, rates(frame, surface.divided(verdict), lengths))
 }
 
 /// The verdict on the surface inside a hull.
 #[inline(always)]
 fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
-    let nearest = hull.nearest();
-    let farthest = add(neg(fold(&hull.part.z, min)), hull.spread());
-    if add(farthest, hull.slack) < frame.near {
+    if frame.flags & FLAG_WHOLE != 0 {
+        let lengths = hull.lengths(frame, surface, &measured(frame, &hull.part));
+        return by_length(frame, surface, &lengths, PixelBox::whole(frame));
+    }
+    let (nearest, farthest) = (hull.nearest(), hull.farthest());
+    let strays = hull.strays(frame, surface);
+    let end = strays.map_or(farthest, |strays| max(farthest, strays.farthest));
+    if add(end, hull.slack) < frame.near {
         return Verdict::CULLED;
     }
-    if nearest < frame.near {
-        if beside_the_view(frame, &hull.part, add(hull.slack, hull.spread())) {
-            return Verdict::CULLED;
-        }
-        let code = refine(frame, surface, depth_spans(&hull.part), None);
-        return verdict(code, PixelBox::whole(frame));
-    }
-    let (x, y) = on_screen(frame, &hull.part);
-    let seen = hull.seen(frame, nearest, &x, &y);
-    if !seen.is_in_view(frame) {
+    let crosses = nearest < frame.near && add(farthest, hull.slack) >= frame.near;
+    if crosses && strays.is_none() && beside_the_view(frame, &hull.part, add(hull.slack, hull.spread())) {
         return Verdict::CULLED;
     }
-    seen.verdict(frame, surface, hull.extents(frame, &x, &y))
+    let points = measured(frame, &hull.part);
+    let lengths = hull.lengths(frame, surface, &points);
+    if crosses {
+        let pixels = if strays.is_some() { PixelBox::whole(frame) } else { pixels_if_cut(frame, hull, farthest) };
+        let code = by_extents(frame, surface, extents_if_cut(frame, &hull.part));
+        return with_sides(frame, surface, &lengths, verdict(code, pixels));
+    }
+    let pixels = match strays {
+        Some(strays) if min(nearest, strays.nearest) < frame.near => PixelBox::whole(frame),
+        _ => hull.seen(frame, nearest, &points.x, &points.y).with_strays(strays).pixels(frame),
+    };
+    if pixels.is_empty() {
+        return Verdict::CULLED;
+    }
+    by_length(frame, surface, &lengths, pixels)
 }
 
 /// The pixels that drawing the surface inside a hull can touch.
@@ -217,8 +278,8 @@ fn pixels_of(frame: &Frame, hull: &Hull) -> PixelBox {
     if nearest < frame.near {
         return PixelBox::whole(frame);
     }
-    let (x, y) = on_screen(frame, &hull.part);
-    hull.seen(frame, nearest, &x, &y).pixels(frame)
+    let points = measured(frame, &hull.part);
+    hull.seen(frame, nearest, &points.x, &points.y).pixels(frame)
 }
 
 /// The verdict by the rules of Weber's program.
@@ -236,7 +297,8 @@ fn bound_weber(
         Some(record) => Hull::of_gregory(frame, patch, record, object, surface),
         None => Hull::of_bezier(patch, object, surface),
     };
-    verdict(code, if code == DRAW { pixels_of(frame, &hull) } else { PixelBox::EMPTY })
+    let pixels = if code == DRAW { pixels_of(frame, &hull) } else { PixelBox::EMPTY };
+    verdict(code, pixels).with_sides([Side::LIVE; 4], [frame.rate; 2])
 }
 
 /// Largest magnitude of all sixteen.
@@ -247,22 +309,23 @@ fn largest(c: &[f32; 16]) -> f32 {
 
 impl Verdict {
     /// Not visible.
-    pub(super) const CULLED: Self = Self { code: CULL, columns: 0, rows: 0 };
+    pub(super) const CULLED: Self = Self { code: CULL, columns: 0, rows: 0, along_u: 0, along_v: 0 };
 }
 
 #[inline(always)]
 fn verdict(code: u32, pixels: PixelBox) -> Verdict {
     let [left, right, top, bottom] = pixels.0;
-    Verdict { code, columns: left as u32 | (right as u32) << 16, rows: top as u32 | (bottom as u32) << 16 }
+    let (columns, rows) = (left as u32 | (right as u32) << 16, top as u32 | (bottom as u32) << 16);
+    Verdict { code, columns, rows, along_u: 0, along_v: 0 }
 }
 
 /// Splits along the direction that wants it more; at the deepest level, or where the range cannot be
 /// halved any further, the surface is drawn as it is. The other direction is tried when it too is too long.
 #[inline(always)]
-fn refine(frame: &Frame, surface: Surface, (u, v): (f32, f32), limit: Option<f32>) -> u32 {
+fn refine(frame: &Frame, surface: Surface, (u, v): (f32, f32)) -> u32 {
     let open_u = surface.u_level() < MAX_SPLITS;
     let open_v = surface.v_level() < MAX_SPLITS;
-    let too_long = |extent| limit.is_some_and(|limit| extent > limit);
+    let too_long = |extent| extent > frame.bound;
     if surface.level() + 1 >= frame.levels {
         DRAW_LIMITED
     } else if u > v {
@@ -303,32 +366,59 @@ fn beyond(frame: &Frame, part: &Net, c: &[f32; 16], half: f32, slack: f32) -> bo
     add(fold(&low, max), tolerance) < 0.0 || add(fold(&high, max), tolerance) < 0.0
 }
 
-/// How much the distance to the eye plane varies along u and along v: splitting the direction in which it
-/// varies more separates what is before the near plane from what is behind it.
+/// Lengths along u and along v, in pixels, of a surface that crosses the near plane: as if all of it were there, and
+/// turned to the eye. No part of it that can be seen is longer.
 #[inline(always)]
-fn depth_spans(part: &Net) -> (f32, f32) {
-    let z = &part.z;
-    let (mut along_u, mut along_v) = (0.0, 0.0);
-    for l in 0..4 {
-        along_u = max(along_u, span([z[l], z[4 + l], z[8 + l], z[12 + l]]));
-        along_v = max(along_v, span([z[4 * l], z[4 * l + 1], z[4 * l + 2], z[4 * l + 3]]));
-    }
-    (along_u, along_v)
-}
-
-#[inline(always)]
-fn span([a, b, c, d]: [f32; 4]) -> f32 {
-    sub(max(max(a, b), max(c, d)), min(min(a, b), min(c, d)))
-}
-
-/// Pixel offsets of the control points from the optical axis.
-#[inline(always)]
-fn on_screen(frame: &Frame, part: &Net) -> ([f32; 16], [f32; 16]) {
-    let (mut xs, mut ys) = ([0.0; 16], [0.0; 16]);
+fn extents_if_cut(frame: &Frame, part: &Net) -> (f32, f32) {
+    let scale = mul(frame.focal, recip(frame.near));
+    let mut points = *part;
     for l in 0..16 {
-        [xs[l], ys[l]] = point_on_screen(frame, [part.x[l], part.y[l], part.z[l]]);
+        for c in [&mut points.x[l], &mut points.y[l], &mut points.z[l]] {
+            *c = clamp(mul(*c, scale), neg(FAR_OFF), FAR_OFF);
+        }
     }
-    (xs, ys)
+    let lengths = Lengths::new(polygons_u(&points), polygons_v(&points));
+    (lengths.u, lengths.v)
+}
+
+/// The pixels that drawing a surface can touch of which parts lie as near as the near plane.
+#[inline(always)]
+fn pixels_if_cut(frame: &Frame, hull: &Hull, farthest: f32) -> PixelBox {
+    let (at_near, at_far) = (recip(frame.near), recip(max(add(farthest, hull.slack), frame.near)));
+    let seen = |c: f32, by: f32| mul(mul(c, frame.focal), by);
+    // What is off the axis is seen farthest off it at the near plane.
+    let reach = |low: f32, high: f32| Reach {
+        low: seen(low, if low < 0.0 { at_near } else { at_far }),
+        high: seen(high, if high > 0.0 { at_near } else { at_far }),
+    };
+    let around = add(hull.slack, hull.spread());
+    let x = reach(fold(&hull.part.x, min), fold(&hull.part.x, max));
+    let y = reach(neg(fold(&hull.part.y, max)), neg(fold(&hull.part.y, min)));
+    let margin = margin(frame, around, frame.near);
+    PixelBox::around(frame, &Seen { x, y, margin }, margin)
+}
+
+/// Where the control points are for measuring lengths.
+#[inline(always)]
+fn measured(frame: &Frame, part: &Net) -> Net {
+    let mut out = Net { x: [0.0; 16], y: [0.0; 16], z: [0.0; 16] };
+    for l in 0..16 {
+        [out.x[l], out.y[l], out.z[l]] = measured_point(frame, [part.x[l], part.y[l], part.z[l]]);
+    }
+    out
+}
+
+/// Where a point is for measuring lengths: its pixel offsets, at depth 0; or, if the mesh is to be whole, on a
+/// sheet of pixels that surrounds the eye, flat where it can see.
+#[inline(always)]
+pub(super) fn measured_point(frame: &Frame, point: [f32; 3]) -> [f32; 3] {
+    if frame.flags & FLAG_WHOLE == 0 {
+        let [x, y] = point_on_screen(frame, point);
+        return [x, y, 0.0];
+    }
+    let before = max(neg(point[2]), mul(largest3(point), frame.around));
+    let scale = mul(frame.focal, recip(max(before, frame.near)));
+    scale3(point, scale)
 }
 
 /// Pixel offsets of one point from the optical axis.
@@ -339,46 +429,47 @@ pub(super) fn point_on_screen(frame: &Frame, point: [f32; 3]) -> [f32; 2] {
 }
 
 #[inline(always)]
-pub(super) fn distance([ax, ay]: [f32; 2], [bx, by]: [f32; 2]) -> f32 {
-    let (dx, dy) = (sub(bx, ax), sub(by, ay));
-    sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY))
+pub(super) fn distance([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> f32 {
+    let (dx, dy, dz) = (sub(bx, ax), sub(by, ay), sub(bz, az));
+    sqrt(add(add(add(mul(dx, dx), mul(dy, dy)), mul(dz, dz)), LENGTH_TINY))
 }
 
 #[inline(always)]
-fn segment(x: &[f32; 16], y: &[f32; 16], from: usize, to: usize) -> f32 {
-    distance([x[from], y[from]], [x[to], y[to]])
+fn segment(points: &Net, from: usize, to: usize) -> f32 {
+    let at = |l: usize| [points.x[l], points.y[l], points.z[l]];
+    distance(at(from), at(to))
 }
 
-/// Length in pixels of the longest control polygon along u.
+/// Lengths in pixels of the control polygons along u.
 #[inline(always)]
-fn length_u(x: &[f32; 16], y: &[f32; 16]) -> f32 {
+fn polygons_u(points: &Net) -> [f32; 4] {
     let mut lengths = [0.0; 12];
     for (l, length) in lengths.iter_mut().enumerate() {
-        *length = segment(x, y, l, l + 4);
+        *length = segment(points, l, l + 4);
     }
     let mut polygons = [0.0; 4];
-    for (j, polygon) in polygons.iter_mut().enumerate() {
-        *polygon = add(add(lengths[j], lengths[4 + j]), lengths[8 + j]);
+    for (j, out) in polygons.iter_mut().enumerate() {
+        *out = polygon(lengths[j], lengths[4 + j], lengths[8 + j]);
     }
-    max(max(polygons[0], polygons[1]), max(polygons[2], polygons[3]))
+    polygons
 }
 
-/// Length in pixels of the longest control polygon along v.
+/// Lengths in pixels of the control polygons along v.
 #[inline(always)]
-fn length_v(x: &[f32; 16], y: &[f32; 16]) -> f32 {
+fn polygons_v(points: &Net) -> [f32; 4] {
     let mut lengths = [0.0; 15];
     for (l, length) in lengths.iter_mut().enumerate() {
-        *length = segment(x, y, l, l + 1); // every fourth joins two rows and is not used
+        *length = segment(points, l, l + 1); // every fourth joins two rows and is not used
     }
     let mut polygons = [0.0; 4];
-    for (i, polygon) in polygons.iter_mut().enumerate() {
-        *polygon = add(add(lengths[4 * i], lengths[4 * i + 1]), lengths[4 * i + 2]);
+    for (i, out) in polygons.iter_mut().enumerate() {
+        *out = polygon(lengths[4 * i], lengths[4 * i + 1], lengths[4 * i + 2]);
     }
-    max(max(polygons[0], polygons[1]), max(polygons[2], polygons[3]))
+    polygons
 }
 
 /// Left, right, top and bottom in pixels; right and bottom are one past the last.
-struct PixelBox([i32; 4]);
+pub(super) struct PixelBox([i32; 4]);
 
 impl PixelBox {
     const EMPTY: Self = Self([0; 4]);
@@ -395,7 +486,7 @@ impl PixelBox {
     }
 
     #[inline(always)]
-    fn is_empty(&self) -> bool {
+    pub(super) const fn is_empty(&self) -> bool {
         self.0[0] >= self.0[1] || self.0[2] >= self.0[3]
     }
 }

@@ -4,12 +4,14 @@
 //! (patches of other kinds, the near plane, the profile of Weber's program) is left to `bound_any`, surface by
 //! surface.
 
-use crate::abi::{FLAG_WEBER, Frame, Object, Patch, ROUNDING, Surface, Verdict};
-use crate::kernel::bound::{Reach, Seen, bound_any, distance, margin, point_on_screen};
+use crate::abi::{FLAG_WEBER, FLAG_WHOLE, Frame, Object, Patch, ROUNDING, Surface, Verdict};
+use crate::kernel::bound::{Reach, Seen, bound_any, by_length, distance, margin, point_on_screen};
+use crate::kernel::dice::position_at;
+use crate::kernel::sides::{Lengths, Strays, polygon};
 use crate::num::{add, max, min, mul, neg};
 use crate::patch::Net;
-use crate::patch::bezier::blossom;
-use crate::patch::net::{fold, weighted};
+use crate::patch::bezier::{blend4, blossom};
+use crate::patch::net::fold;
 
 /// Surfaces that are bounded at once.
 pub const LANES: usize = 16;
@@ -36,8 +38,8 @@ pub struct Lanes {
     slack: Lane,
     nearest: Lane,
     farthest: Lane,
-    /// Lengths along u and along v.
-    extents: [Lane; 2],
+    /// Lengths of the four control polygons along u and along v.
+    lengths: [[Lane; 4]; 2],
     /// Low and high ends of the ranges of u and v.
     ranges: [[[u32; LANES]; 2]; 2],
     /// Blossoms of the ranges of u and v.
@@ -57,7 +59,7 @@ impl Default for Lanes {
             slack: [0.0; LANES],
             nearest: [0.0; LANES],
             farthest: [0.0; LANES],
-            extents: [[0.0; LANES]; 2],
+            lengths: [[[0.0; LANES]; 4]; 2],
             ranges: [[[0; LANES]; 2]; 2],
             weights: [[[[0.0; LANES]; 4]; 4]; 2],
             alone: [false; LANES],
@@ -76,14 +78,14 @@ pub fn bound_lanes(
     lanes: &mut Lanes,
 ) {
     for (surfaces, verdicts) in surfaces.chunks(LANES).zip(verdicts.chunks_mut(LANES)) {
-        if frame.flags & FLAG_WEBER != 0 || surfaces.len() < WORTH_IT {
+        if frame.flags & (FLAG_WEBER | FLAG_WHOLE) != 0 || surfaces.len() < WORTH_IT {
             lanes.alone = [true; LANES];
         } else {
             lanes.load(objects, patches, surfaces);
             lanes.measure(frame);
         }
         for (l, (surface, verdict)) in surfaces.iter().zip(verdicts).enumerate() {
-            let known = if lanes.alone[l] { None } else { lanes.verdict(frame, *surface, l) };
+            let known = if lanes.alone[l] { None } else { lanes.verdict(frame, objects, patches, *surface, l) };
             *verdict = match known {
                 Some(verdict) => verdict,
                 None => bound_any(frame, objects, patches, *surface),
@@ -128,7 +130,7 @@ impl Lanes {
     /// From the control points of the patches to distances and lengths on screen.
     #[inline(always)]
     fn measure(&mut self, frame: &Frame) {
-        let Self { net, strip, seen, ranges, weights, extents, .. } = self;
+        let Self { net, strip, seen, ranges, weights, lengths, .. } = self;
         for (weights, ranges) in weights.iter_mut().zip(ranges) {
             blossoms(ranges, weights);
         }
@@ -156,25 +158,42 @@ impl Lanes {
                 (self.low[axis][l], self.high[axis][l]) = (low, high);
             }
         }
-        longest(seen, [0, 1, 2, 3], 4, &mut extents[0]);
-        longest(seen, [0, 4, 8, 12], 1, &mut extents[1]);
+        polygons(seen, [0, 1, 2, 3], 4, &mut lengths[0]);
+        polygons(seen, [0, 4, 8, 12], 1, &mut lengths[1]);
     }
 
-    /// What becomes of the surface in lane `l`, unless it crosses the near plane.
+    /// What becomes of the surface in lane `l`, unless it, or a corner that has strayed, crosses the near plane.
     #[inline(always)]
-    fn verdict(&self, frame: &Frame, surface: Surface, l: usize) -> Option<Verdict> {
+    fn verdict(
+        &self,
+        frame: &Frame,
+        objects: &[Object],
+        patches: &[Patch],
+        surface: Surface,
+        l: usize,
+    ) -> Option<Verdict> {
         let [nearest, farthest, slack] = [self.nearest[l], self.farthest[l], self.slack[l]];
-        if add(farthest, slack) < frame.near {
+        let strays = if surface.keeps_its_corners() { None } else { strays(frame, objects, patches, surface) };
+        if let Some(strays) = strays {
+            if strays.nearest < frame.near {
+                return None;
+            }
+        } else if add(farthest, slack) < frame.near {
             return Some(Verdict::CULLED);
         }
         if nearest < frame.near {
             return None;
         }
         let seen = Seen { x: self.reach(0, l), y: self.reach(1, l), margin: margin(frame, slack, nearest) };
-        if !seen.is_in_view(frame) {
+        let pixels = seen.with_strays(strays).pixels(frame);
+        if pixels.is_empty() {
             return Some(Verdict::CULLED);
         }
-        Some(seen.verdict(frame, surface, (self.extents[0][l], self.extents[1][l])))
+        let polygons = |axis: usize| {
+            let [a, b, c, d] = &self.lengths[axis];
+            [a[l], b[l], c[l], d[l]]
+        };
+        Some(by_length(frame, surface, &Lengths::new(polygons(0), polygons(1)), pixels))
     }
 
     #[inline(always)]
@@ -204,26 +223,28 @@ fn restrict(weights: &[[Lane; 4]; 4], from: &Points, to: &mut Points, first: usi
         let points = [from[at(0)][l], from[at(1)][l], from[at(2)][l], from[at(3)][l]];
         for k in 0..4 {
             let [a, b, c, d] = &weights[k];
-            to[at(k)][l] = weighted([a[l], b[l], c[l], d[l]], points);
+            to[at(k)][l] = blend4([a[l], b[l], c[l], d[l]], points);
         }
     }
 }
 
-/// Length of the longest of four control polygons, whose points are `step` apart.
+/// Lengths of four control polygons, whose points are `step` apart.
 #[inline(always)]
-fn longest(seen: &[Points; 2], first: [usize; 4], step: usize, out: &mut Lane) {
-    let mut polygons = [[0.0; LANES]; 4];
-    for (polygon, first) in polygons.iter_mut().zip(first) {
+fn polygons(seen: &[Points; 2], first: [usize; 4], step: usize, out: &mut [Lane; 4]) {
+    for (out, first) in out.iter_mut().zip(first) {
         for l in 0..LANES {
-            let at = |k: usize| [seen[0][first + k * step][l], seen[1][first + k * step][l]];
-            let near = add(distance(at(0), at(1)), distance(at(1), at(2)));
-            polygon[l] = add(near, distance(at(2), at(3)));
+            let at = |k: usize| [seen[0][first + k * step][l], seen[1][first + k * step][l], 0.0];
+            out[l] = polygon(distance(at(0), at(1)), distance(at(1), at(2)), distance(at(2), at(3)));
         }
     }
-    let [a, b, c, d] = &polygons;
-    for l in 0..LANES {
-        out[l] = max(max(a[l], b[l]), max(c[l], d[l]));
-    }
+}
+
+/// Corners that have strayed from a surface of a Bézier patch.
+#[inline(never)]
+fn strays(frame: &Frame, objects: &[Object], patches: &[Patch], surface: Surface) -> Option<Strays> {
+    let patch = &patches[surface.patch_id as usize];
+    let net = Net::in_eye_space(patch, &objects[patch.object as usize]);
+    Strays::of(frame, surface, |u, v| position_at(&net, u, v))
 }
 
 /// The points of one lane.

@@ -4,9 +4,8 @@
 //! coordinate an array and [`LANES`] vertices at once, so that compilers turn each loop into vector
 //! instructions.
 
-use crate::abi::{FLAT, Frame, MAX_RATE, PARALLEL, PARAM_ONE, Surface};
+use crate::abi::{Draw, FLAT, Frame, MAX_RATE, PARALLEL, PARAM_ONE};
 use crate::kernel::project::project;
-use crate::kernel::seam::{Seam, seams};
 use crate::num::{cross3, dot3, largest3, max, min, mul, rsqrt, scale3, sub, unit_scale};
 use crate::patch::Net;
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
@@ -25,8 +24,10 @@ type Lane = [f32; GRID];
 /// Vertices of a diced surface: row `r`, column `c` at index `r · stride + c`.
 #[derive(Clone, Debug)]
 pub struct Grid {
-    /// Vertices a row: the dice rate + 1.
+    /// Vertices a row: micropolygons along u + 1.
     pub stride: usize,
+    /// Rows of vertices: micropolygons along v + 1.
+    pub rows: usize,
     /// Snapped column, 1/256 pixels.
     pub x: [i32; GRID],
     /// Snapped row, 1/256 pixels.
@@ -39,8 +40,6 @@ pub struct Grid {
     pub normal: [Lane; 3],
     /// Colour, linear RGB; written by `shade`.
     pub colour: [Lane; 3],
-    /// What closes the gaps to coarser neighbours along the borders v = low, v = high, u = low, u = high.
-    pub seams: [Seam; 4],
     /// Derivatives along u and along v, until they become the normal.
     pub(super) tangents: [[Lane; 3]; 2],
 }
@@ -49,13 +48,13 @@ impl Default for Grid {
     fn default() -> Self {
         Self {
             stride: 0,
+            rows: 0,
             x: [0; GRID],
             y: [0; GRID],
             w: [0.0; GRID],
             position: [[0.0; GRID]; 3],
             normal: [[0.0; GRID]; 3],
             colour: [[0.0; GRID]; 3],
-            seams: [Seam::default(); 4],
             tangents: [[[0.0; GRID]; 3]; 2],
         }
     }
@@ -65,7 +64,7 @@ impl Grid {
     /// Where the lanes start that hold all vertices.
     #[inline(always)]
     pub(crate) fn blocks(&self) -> impl Iterator<Item = usize> + use<> {
-        (0..self.stride * self.stride).step_by(LANES)
+        (0..self.stride * self.rows).step_by(LANES)
     }
 
     /// Eye-space position of a vertex.
@@ -83,45 +82,120 @@ impl Grid {
     }
 }
 
-/// Fills positions, normals and snapped vertices of `surface`, `frame.rate` + 1 rows and columns.
+/// Fills positions, normals and snapped vertices of a drawn surface: regular inside, and on its borders the
+/// vertices that its neighbours have too.
 ///
 /// `net` is the patch's control net in eye space.
 #[inline(always)]
-pub fn dice(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
-    prepare_grid(frame, seams(net, frame, surface), grid);
-    let rate = frame.rate;
-    let (step_u, step_v) = (surface.u_size() / rate, surface.v_size() / rate);
+pub fn dice(net: &Net, frame: &Frame, draw: Draw, grid: &mut Grid) {
+    prepare_grid(draw, grid);
+    let (rate_u, rate_v) = (draw.rate_u(), draw.rate_v());
     let mut columns = [Weights::<LANES>::ZERO; BLOCKS];
-    for (first, columns) in (0..=rate).step_by(LANES).zip(&mut columns) {
-        *columns = Weights::new(surface.u, step_u, first, rate);
+    for (first, columns) in (0..=rate_u).step_by(LANES).zip(&mut columns) {
+        *columns = Weights::new(first, |column| draw.column(column.min(rate_u)));
     }
-    for first_row in (0..=rate).step_by(LANES) {
-        let curves = IsoCurves::new(net, &Weights::<LANES>::new(surface.v, step_v, first_row, rate));
-        for row in first_row..=rate.min(first_row + LANES as u32 - 1) {
+    for first_row in (0..=rate_v).step_by(LANES) {
+        let rows = Weights::<LANES>::new(first_row, |row| draw.row(row.min(rate_v)));
+        let curves = IsoCurves::new(net, &rows);
+        for row in first_row..=rate_v.min(first_row + LANES as u32 - 1) {
             let curve = curves.at((row - first_row) as usize);
             for (block, columns) in (0..grid.stride).step_by(LANES).zip(&columns) {
                 evaluate(&curve, columns, row as usize * grid.stride + block, grid);
             }
         }
     }
-    finish_grid(net, frame, surface, grid);
+    let moved = Moved::of(draw);
+    for block in moved.blocks() {
+        evaluate_moved(net, &moved, block, grid);
+    }
+    finish_grid(net, frame, draw, grid);
 }
 
-/// What a grid has before its vertices: their number and the seams.
+/// Vertices of a grid's borders that are not where a regular grid has them.
+pub(super) struct Moved {
+    count: usize,
+    /// Their indices in the grid.
+    at: [usize; BORDER],
+    u: [u32; BORDER],
+    v: [u32; BORDER],
+}
+
+/// Vertices on the borders of the largest grid.
+const BORDER: usize = 4 * MAX_RATE as usize;
+
+impl Moved {
+    #[inline(always)]
+    pub(super) fn of(draw: Draw) -> Self {
+        let mut out = Self { count: 0, at: [0; BORDER], u: [0; BORDER], v: [0; BORDER] };
+        if draw.borders == [0; 4] {
+            return out;
+        }
+        let (rate_u, rate_v) = (draw.rate_u(), draw.rate_v());
+        for column in 0..=rate_u {
+            out.look_at(draw, 0, column);
+            out.look_at(draw, rate_v, column);
+        }
+        for row in 1..rate_v {
+            out.look_at(draw, row, 0);
+            out.look_at(draw, row, rate_u);
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn look_at(&mut self, draw: Draw, row: u32, column: u32) {
+        let [u, v] = draw.vertex(row, column);
+        if u != draw.column(column) || v != draw.row(row) {
+            let at = &mut self.count;
+            self.at[*at] = row as usize * (draw.rate_u() as usize + 1) + column as usize;
+            (self.u[*at], self.v[*at]) = (u, v);
+            *at += 1;
+        }
+    }
+
+    fn blocks(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.count).step_by(LANES)
+    }
+}
+
+/// Positions and tangents of up to [`LANES`] vertices, each with an iso-curve of its own.
 #[inline(always)]
-pub(super) fn prepare_grid(frame: &Frame, seams: [Seam; 4], grid: &mut Grid) {
-    grid.stride = frame.rate as usize + 1;
-    grid.seams = seams;
+fn evaluate_moved(net: &Net, moved: &Moved, first: usize, grid: &mut Grid) {
+    let known = |l: u32| (l as usize).min(moved.count - 1);
+    let columns = Weights::<LANES>::new(first as u32, |l| moved.u[known(l)]);
+    let curves = IsoCurves::new(net, &Weights::<LANES>::new(first as u32, |l| moved.v[known(l)]));
+    for k in 0..3 {
+        let (mut position, mut du, mut dv) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (point, across) = (&curves.point[k], &curves.across[k]);
+        for l in 0..LANES {
+            let p = [point[0][l], point[1][l], point[2][l], point[3][l]];
+            position[l] = blend4(columns.cubic_at(l), p);
+            du[l] = blend3(columns.slope_at(l), [sub(p[1], p[0]), sub(p[2], p[1]), sub(p[3], p[2])]);
+            dv[l] = blend4(columns.cubic_at(l), [across[0][l], across[1][l], across[2][l], across[3][l]]);
+        }
+        for l in 0..LANES.min(moved.count - first) {
+            let at = moved.at[first + l];
+            grid.position[k][at] = position[l];
+            (grid.tangents[0][k][at], grid.tangents[1][k][at]) = (du[l], dv[l]);
+        }
+    }
+}
+
+/// What a grid has before its vertices: their number.
+#[inline(always)]
+pub(super) fn prepare_grid(draw: Draw, grid: &mut Grid) {
+    grid.stride = draw.rate_u() as usize + 1;
+    grid.rows = draw.rate_v() as usize + 1;
 }
 
 /// Normals and snapped vertices, from positions and tangents.
 #[inline(always)]
-pub(super) fn finish_grid(net: &Net, frame: &Frame, surface: Surface, grid: &mut Grid) {
+pub(super) fn finish_grid(net: &Net, frame: &Frame, draw: Draw, grid: &mut Grid) {
     let flat = mul(size(net), FLAT);
     for block in grid.blocks() {
         finish(frame, block, flat, grid);
     }
-    mend_normals(net, surface, flat, grid);
+    mend_normals(net, draw, flat, grid);
 }
 
 /// Bernstein weights of vertices along one side of a grid, an array a weight.
@@ -134,13 +208,12 @@ struct Weights<const N: usize> {
 impl<const N: usize> Weights<N> {
     const ZERO: Self = Self { cubic: [[0.0; N]; 4], slope: [[0.0; N]; 3] };
 
-    /// From vertex number `first` on; beyond the last, number `rate`, that one is repeated.
+    /// From vertex number `first` on, each at its parameter.
     #[inline(always)]
-    fn new(start: u32, step: u32, first: u32, rate: u32) -> Self {
+    fn new(first: u32, parameter: impl Fn(u32) -> u32) -> Self {
         let mut out = Self::ZERO;
         for l in 0..N {
-            let place = first + l as u32;
-            let t = param(start + step * if place < rate { place } else { rate });
+            let t = param(parameter(first + l as u32));
             [out.cubic[0][l], out.cubic[1][l], out.cubic[2][l], out.cubic[3][l]] = cubic(t);
             [out.slope[0][l], out.slope[1][l], out.slope[2][l]] = cubic_slope(t);
         }
@@ -162,7 +235,7 @@ impl Weights<1> {
     /// The weights of one parameter.
     #[inline(always)]
     fn at(t: u32) -> Self {
-        Self::new(t, 0, 0, 0)
+        Self::new(0, |_| t)
     }
 }
 
@@ -310,7 +383,7 @@ pub fn unit_normal(du: [f32; 3], dv: [f32; 3], flat: f32) -> [f32; 3] {
 
 /// Replaces normals that vanished: at collapsed edges, cusps, zero-area patches.
 #[inline(always)]
-fn mend_normals(net: &Net, surface: Surface, flat: f32, grid: &mut Grid) {
+fn mend_normals(net: &Net, draw: Draw, flat: f32, grid: &mut Grid) {
     let mut vanished = 0;
     for block in grid.blocks() {
         let normal = load3(&grid.normal, block);
@@ -319,18 +392,17 @@ fn mend_normals(net: &Net, surface: Surface, flat: f32, grid: &mut Grid) {
         }
     }
     if vanished > 0 {
-        mend_each(net, surface, flat, grid);
+        mend_each(net, draw, flat, grid);
     }
 }
 
 #[cold]
-fn mend_each(net: &Net, surface: Surface, flat: f32, grid: &mut Grid) {
-    let rate = grid.stride as u32 - 1;
-    let (step_u, step_v) = (surface.u_size() / rate, surface.v_size() / rate);
-    for at in 0..grid.stride * grid.stride {
+fn mend_each(net: &Net, draw: Draw, flat: f32, grid: &mut Grid) {
+    for at in 0..grid.stride * grid.rows {
         let (row, column) = ((at / grid.stride) as u32, (at % grid.stride) as u32);
         if largest3(grid.unit_normal(at)) < 0.5 {
-            let normal = normal_nearby(net, surface.u + column * step_u, surface.v + row * step_v, flat);
+            let [u, v] = draw.vertex(row, column);
+            let normal = normal_nearby(net, u, v, flat);
             [grid.normal[0][at], grid.normal[1][at], grid.normal[2][at]] = normal;
         }
     }

@@ -1,9 +1,8 @@
 //! Dicing of Gregory patches: as `dice.rs` does it, but the inner control points are another four at each
 //! vertex. On borders they have no weight, so border vertices are those of the net alone, bit by bit.
 
-use crate::abi::{FLAG_WEBER, Frame, Surface};
+use crate::abi::{Draw, FLAG_WEBER, Frame};
 use crate::kernel::dice::{Grid, LANES, finish_grid, prepare_grid, store};
-use crate::kernel::seam_gregory::seams_gregory;
 use crate::num::{add, mul, scale3, sub};
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
 use crate::patch::gregory::{Blend, INNER, blends, weber_blends};
@@ -11,18 +10,16 @@ use crate::patch::{Faces, Net};
 
 /// Fills positions, normals and snapped vertices of a surface of a Gregory patch, as
 /// [`crate::kernel::dice::dice`] does of a Bézier patch.
-pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, surface: Surface, grid: &mut Grid) {
-    prepare_grid(frame, seams_gregory(net, faces, frame, surface), grid);
-    let rate = frame.rate;
-    let (step_u, step_v) = (surface.u_size() / rate, surface.v_size() / rate);
-    for row in 0..=rate {
-        for block in (0..=rate).step_by(LANES) {
-            let at = (row * (rate + 1) + block) as usize;
-            let v = surface.v + row * step_v;
+pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, draw: Draw, grid: &mut Grid) {
+    prepare_grid(draw, grid);
+    let (rate_u, rate_v) = (draw.rate_u(), draw.rate_v());
+    for row in 0..=rate_v {
+        for block in (0..=rate_u).step_by(LANES) {
+            let at = (row * (rate_u + 1) + block) as usize;
             let mut lanes = [[[0.0; LANES]; 3]; 3];
             for l in 0..LANES {
                 // Beyond the row's end, where the next row will be, its last vertex is repeated.
-                let u = surface.u + rate.min(block + l as u32) * step_u;
+                let [u, v] = draw.vertex(row, rate_u.min(block + l as u32));
                 let Vertex { point, du, dv } = evaluate_gregory(net, faces, frame, u, v);
                 for k in 0..3 {
                     (lanes[0][k][l], lanes[1][k][l], lanes[2][k][l]) = (point[k], du[k], dv[k]);
@@ -35,7 +32,7 @@ pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, surface: Surface, g
             }
         }
     }
-    finish_grid(net, frame, surface, grid);
+    finish_grid(net, frame, draw, grid);
 }
 
 /// A point of a patch and its derivatives along u and along v.

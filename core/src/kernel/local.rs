@@ -74,6 +74,7 @@ pub fn local(
         processed: control.processed,
         culled: control.culled,
         limited: control.limited,
+        micropolygons: control.micropolygons,
         peak: control.peak,
         load: group.load + control.processed,
         ..group

@@ -3,12 +3,11 @@
 //! A micropolygon is two triangles. Where two are equally near the smaller identity (patch, u, v) wins, so
 //! the image does not depend on the order in which surfaces arrive.
 
-use crate::abi::{Colour, Draw, FLAG_CULL_BACKFACES, Frame, Sample};
+use crate::abi::{Colour, Draw, FLAG_CULL_BACKFACES, Frame, MAX_RATE_BITS, Sample};
 use crate::kernel::clip::clip;
 use crate::kernel::dice::{Grid, LANES};
-use crate::kernel::project::{Vertex, project, project_clipped};
+use crate::kernel::project::{Vertex, project_clipped};
 use crate::kernel::quads::{FOUND, NOTHING, Quads};
-use crate::kernel::seam::Seam;
 use crate::kernel::triangle::{Corner, depth, edge, owns, pixels_between, sample_triangle, signed_area};
 use crate::num::{add, mul};
 
@@ -76,12 +75,11 @@ pub fn sample(frame: &Frame, draw: Draw, grid: &Grid, band: &mut Band<'_>) {
         return;
     }
     let sampler = Sampler { frame, draw, grid };
-    for row in 0..frame.rate as usize {
-        for block in (0..frame.rate as usize).step_by(LANES) {
+    for row in 0..grid.rows - 1 {
+        for block in (0..grid.stride - 1).step_by(LANES) {
             sampler.block(row, block, band);
         }
     }
-    sampler.seams(band);
 }
 
 /// A row and column of a grid: of a vertex, or of the micropolygon that starts there.
@@ -110,12 +108,11 @@ impl Sampler<'_> {
     #[inline(always)]
     fn sample(&self, (row, column): Place, w: f32) -> Sample {
         let surface = self.draw.surface();
-        let rate = self.frame.rate.trailing_zeros();
         Sample {
             depth: w.to_bits(),
             patch_id: surface.patch_id,
-            u: surface.u + column as u32 * (surface.u_size() >> rate),
-            v: surface.v + row as u32 * (surface.v_size() >> rate),
+            u: surface.u + column as u32 * (surface.u_size() >> MAX_RATE_BITS),
+            v: surface.v + row as u32 * (surface.v_size() >> MAX_RATE_BITS),
         }
     }
 
@@ -137,7 +134,7 @@ impl Sampler<'_> {
     fn block(&self, row: usize, block: usize, band: &mut Band<'_>) {
         let quads = Quads::new(self.grid, self.index((row, block)));
         let finds = quads.find();
-        for l in 0..LANES.min(self.frame.rate as usize - block) {
+        for l in 0..LANES.min(self.grid.stride - 1 - block) {
             let place = (row, block + l);
             match finds.state[l] {
                 NOTHING => {}
@@ -199,49 +196,6 @@ impl Sampler<'_> {
             }
         }
     }
-
-    /// Closes the gaps to coarser neighbours (see `seam.rs`).
-    #[inline(always)]
-    fn seams(&self, band: &mut Band<'_>) {
-        for (border, seam) in self.grid.seams.iter().enumerate() {
-            if seam.longest > 1 {
-                self.seam(border, seam, band);
-            }
-        }
-    }
-
-    #[inline(never)]
-    fn seam(&self, border: usize, seam: &Seam, band: &mut Band<'_>) {
-        let last = self.frame.rate as usize;
-        let at = |t: usize| [(0, t), (last, t), (t, 0), (t, last)][border];
-        let mut span = 2;
-        while span <= last.min(seam.longest as usize) {
-            for start in (0..last).step_by(span) {
-                let places = [at(start), at(start + span / 2), at(start + span)];
-                self.sliver(places.map(|place| self.vertex(place)), places[1], band);
-            }
-            span *= 2;
-        }
-        if let Some([low, high]) = seam.chord {
-            let middle = at(last);
-            let chord = [project(self.frame, low), self.vertex(middle), project(self.frame, high)];
-            self.sliver(chord, middle, band);
-        }
-    }
-
-    #[inline(always)]
-    fn sliver(&self, triangle: [Vertex; 3], middle: Place, band: &mut Band<'_>) {
-        if triangle.iter().all(|vertex| vertex.w > 0.0) {
-            self.triangle(triangle, self.micropolygon_beside(middle), band);
-        }
-    }
-
-    /// A micropolygon that has this vertex.
-    #[inline(always)]
-    fn micropolygon_beside(&self, (row, column): Place) -> Place {
-        let last = self.frame.rate as usize - 1;
-        (row.min(last), column.min(last))
-    }
 }
 
 /// 1 / distance at the centre of a pixel if one of the quad's two triangles, a b c and a c d, owns it; of
@@ -270,7 +224,7 @@ fn sample_quad(quad: [Vertex; 4], column: i32, row: i32) -> Option<f32> {
 fn faces_away(grid: &Grid) -> bool {
     let vertex = |at: usize| Vertex { x: grid.x[at], y: grid.y[at], w: grid.w[at] };
     let stride = grid.stride;
-    (0..stride - 1).flat_map(|row| (0..stride - 1).map(move |column| row * stride + column)).all(|at| {
+    (0..grid.rows - 1).flat_map(|row| (0..stride - 1).map(move |column| row * stride + column)).all(|at| {
         let quad = [vertex(at), vertex(at + 1), vertex(at + stride + 1), vertex(at + stride)];
         quad.iter().all(|v| v.w > 0.0)
             && signed_area(quad[0], quad[1], quad[2]) >= 0

@@ -15,29 +15,34 @@ pub fn scan(
     stack_room: u32,
     draw_room: u32,
 ) -> Control {
-    let (mut splits, mut draws, mut limited) = (0, 0, 0);
+    let (mut splits, mut draws, mut limited, mut micropolygons) = (0, 0, 0, 0);
     for (verdict, slot) in verdicts.iter().zip(slots) {
         *slot = Slot { splits, draws };
         match verdict.code {
             CULL => {}
-            DRAW => draws += 1,
-            DRAW_LIMITED => {
+            DRAW | DRAW_LIMITED => {
+                let [along_u, along_v] = verdict.rates();
                 draws += 1;
-                limited += 1;
+                limited += (verdict.code == DRAW_LIMITED) as u32;
+                micropolygons += along_u * along_v;
             }
             _ => splits += 1,
         }
     }
-    commit(control, splits, draws, limited, stack_room, draw_room)
+    let control = Control {
+        limited: control.limited + limited,
+        micropolygons: control.micropolygons + micropolygons,
+        ..control
+    };
+    commit(control, splits, draws, stack_room, draw_room)
 }
 
-/// The counts after a batch with these totals.
+/// The counts after a batch in which so many were split and drawn.
 #[must_use]
 pub fn commit(
     control: Control,
     splits: u32,
     draws: u32,
-    limited: u32,
     stack_room: u32,
     draw_room: u32,
 ) -> Control {
@@ -51,7 +56,6 @@ pub fn commit(
         processed: control.processed + control.taken,
         culled: control.culled + control.taken - draws - splits,
         drawn: control.drawn + draws,
-        limited: control.limited + limited,
         overflow: if excess_stack > excess_draws { excess_stack } else { excess_draws },
         ..control
     }

@@ -19,8 +19,7 @@ pub fn split(control: &Control, surface: Surface, verdict: Verdict, slot: Slot) 
     let place = control.base + 2 * slot.splits;
     match verdict.code {
         CULL => Outcome::Culled,
-        SPLIT_U => Outcome::Split(place, surface.halves_u()),
-        SPLIT_V => Outcome::Split(place, surface.halves_v()),
+        SPLIT_U | SPLIT_V => Outcome::Split(place, surface.halves(verdict)),
         _ => Outcome::Drawn(control.waiting + slot.draws, Draw::new(surface, verdict)),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::abi::{Object, Patch};
 use crate::num::{abs, add, max, mul};
-use crate::patch::bezier::blossom;
+use crate::patch::bezier::{blend4, blossom};
 
 use crate::abi::Surface;
 
@@ -74,7 +74,7 @@ fn combine_u(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
     let mut out = [0.0; 16];
     for (k, w) in weights.iter().enumerate() {
         for j in 0..4 {
-            out[4 * k + j] = weighted(*w, [c[j], c[4 + j], c[8 + j], c[12 + j]]);
+            out[4 * k + j] = blend4(*w, [c[j], c[4 + j], c[8 + j], c[12 + j]]);
         }
     }
     out
@@ -86,16 +86,10 @@ fn combine_v(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
     let mut out = [0.0; 16];
     for i in 0..4 {
         for (l, w) in weights.iter().enumerate() {
-            out[4 * i + l] = weighted(*w, [c[4 * i], c[4 * i + 1], c[4 * i + 2], c[4 * i + 3]]);
+            out[4 * i + l] = blend4(*w, [c[4 * i], c[4 * i + 1], c[4 * i + 2], c[4 * i + 3]]);
         }
     }
     out
-}
-
-/// Weighted sum of four numbers, low and high pairs first.
-#[inline(always)]
-pub(crate) fn weighted(w: [f32; 4], c: [f32; 4]) -> f32 {
-    add(add(mul(w[0], c[0]), mul(w[1], c[1])), add(mul(w[2], c[2]), mul(w[3], c[3])))
 }
 
 /// All sixteen numbers reduced to one in a fixed tree.

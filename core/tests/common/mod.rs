@@ -2,7 +2,7 @@
 #![allow(dead_code, missing_docs, unreachable_pub)] // each test uses its part
 
 use glam::{DAffine3, DVec3, Vec3};
-use micropoly_core::abi::{Frame, Object, Patch, Surface};
+use micropoly_core::abi::{Frame, Object, Patch, SPLIT_U, SPLIT_V, Surface, Verdict};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::patch::Net;
 use micropoly_core::patch::gregory::INNER;
@@ -66,8 +66,8 @@ pub fn view(camera: &Camera, width: u32, height: u32) -> (Frame, Object) {
 pub fn random_surface(random: &mut fastrand::Rng, deepest: u32) -> Surface {
     let mut surface = Surface::root(0);
     for _ in 0..random.u32(0..=deepest) {
-        let halves = if random.bool() { surface.halves_u() } else { surface.halves_v() };
-        surface = halves[usize::from(random.bool())];
+        let code = if random.bool() { SPLIT_U } else { SPLIT_V };
+        surface = surface.halves(Verdict { code, ..Verdict::default() })[usize::from(random.bool())];
     }
     surface
 }
