@@ -136,6 +136,14 @@ impl Surface {
         (steps + (1 << halved) - 1) >> halved
     }
 
+    /// Are the side's own vertices those of a regular grid with so many steps along it?
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_regular(self, side: usize, rate: u32) -> bool {
+        let Side { steps, bits } = self.side(side);
+        steps == 0 || (steps == rate && bits == self.extent_of(side).1)
+    }
+
     /// `u` and `v` of the vertex with which step `index` of `rate` along a side ends: one of the side's own.
     #[inline(always)]
     #[must_use]

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
+use micropoly::mesh::Format;
 use micropoly::{Backend, Batch, Borders, FrameOptions, Profile, RenderOptions, Scheduler};
 
 /// Reyes micropolygon renderer: the same bits on every device.
@@ -21,6 +22,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Render a scene to a PNG file.
     Render(RenderArguments),
+    /// Write a scene as a mesh of triangles, as fine as its camera needs them, without a crack.
+    Tessellate(TessellateArguments),
     /// Say what is in a scene and how much memory a frame of it can need.
     Info(InfoArguments),
     /// List every device of every backend, with driver and limits.
@@ -62,6 +65,52 @@ impl RenderArguments {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct TessellateArguments {
+    /// Scene file (.toml, .mscene) or patch file (.bpt).
+    pub(crate) scene: PathBuf,
+    /// Mesh file to write (.obj, .ply or .glb).
+    #[arg(short, long, value_name = "FILE", value_parser = mesh_path)]
+    pub(crate) output: (PathBuf, Format),
+    /// Size in pixels of the image that the mesh is meant for.
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = resolution)]
+    res: (u32, u32),
+    /// Longest side of a micropolygon on screen, in pixels; each becomes two triangles.
+    #[arg(long, value_name = "PIXELS", default_value = "1", allow_negative_numbers = true, value_parser = pixels)]
+    micropolygon_size: f32,
+    /// Most micropolygons a side of a surface, from 1 to 16.
+    #[arg(long, value_name = "N", default_value = "16", allow_negative_numbers = true,
+          value_parser = value_parser!(u32).range(1..=i64::from(MAX_RATE)))]
+    dice: u32,
+    /// Levels of subdivision: a patch is halved at most N - 1 times.
+    #[arg(long, value_name = "N", default_value = "41", allow_negative_numbers = true,
+          value_parser = value_parser!(u32).range(1..=i64::from(MAX_LEVELS)))]
+    max_depth: u32,
+    /// Only what the camera can see. Otherwise the mesh is whole, and what is out of view is as fine as if the
+    /// camera had turned to it.
+    #[arg(long)]
+    visible: bool,
+    /// Count the edges that are not shared by two triangles.
+    #[arg(long)]
+    pub(crate) check: bool,
+}
+
+impl TessellateArguments {
+    pub(crate) fn options(&self) -> FrameOptions {
+        let (width, height) = self.res;
+        FrameOptions {
+            width,
+            height,
+            bound: self.dice as f32 * self.micropolygon_size,
+            rate: self.dice,
+            size: self.micropolygon_size,
+            levels: self.max_depth,
+            whole: !self.visible,
+            ..FrameOptions::default()
+        }
+    }
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct InfoArguments {
     /// Scene file (.toml, .mscene) or patch file (.bpt).
     pub(crate) scene: PathBuf,
@@ -91,6 +140,9 @@ pub(crate) struct BenchArguments {
     /// Which devices to measure on: `all`, or those of one backend.
     #[arg(long, value_enum, default_value_t = Compared::Cpu)]
     pub(crate) backend: Compared,
+    /// Measure dicing instead, on the CPU: lengths and number of micropolygons, and what watertight borders cost.
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv"])]
+    pub(crate) dicing: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]
@@ -375,6 +427,14 @@ fn png_path(text: &str) -> Result<PathBuf, String> {
         Ok(path)
     } else {
         Err("only PNG images can be written: choose a name that ends in .png".into())
+    }
+}
+
+fn mesh_path(text: &str) -> Result<(PathBuf, Format), String> {
+    let path = PathBuf::from(text);
+    match Format::of(&path) {
+        Some(format) => Ok((path, format)),
+        None => Err("choose a name that ends in .obj, .ply or .glb".into()),
     }
 }
 

@@ -11,6 +11,7 @@ macro_rules! say {
 
 mod args;
 mod bench;
+mod bench_dicing;
 mod conform;
 mod devices;
 mod info;
@@ -18,6 +19,7 @@ mod plot;
 mod progress;
 mod render;
 mod summary;
+mod tessellate;
 
 use std::process::ExitCode;
 
@@ -33,9 +35,11 @@ const UNAVAILABLE: u8 = 2;
 pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
+        Command::Tessellate(arguments) => tessellate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Devices => devices::run(),
         Command::Conform(arguments) => conform::run(&arguments),
+        Command::Bench(arguments) if arguments.dicing => bench_dicing::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
     };
     match outcome {

@@ -38,8 +38,8 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     Ok(())
 }
 
-/// Finds out before a long rendering that its image could not be written.
-fn check_folder(output: &Path) -> Result<()> {
+/// Finds out before a long rendering that its file could not be written.
+pub(super) fn check_folder(output: &Path) -> Result<()> {
     let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
     match folder {
         Some(folder) if !folder.is_dir() => {

@@ -111,8 +111,8 @@ pub fn dice(net: &Net, frame: &Frame, draw: Draw, grid: &mut Grid) {
     finish_grid(net, frame, draw, grid);
 }
 
-/// Vertices of a grid's borders that are not where a regular grid has them.
-pub(super) struct Moved {
+/// Vertices of a grid's borders that need not be where a regular grid has them.
+struct Moved {
     count: usize,
     /// Their indices in the grid.
     at: [usize; BORDER],
@@ -125,32 +125,32 @@ const BORDER: usize = 4 * MAX_RATE as usize;
 
 impl Moved {
     #[inline(always)]
-    pub(super) fn of(draw: Draw) -> Self {
+    fn of(draw: Draw) -> Self {
         let mut out = Self { count: 0, at: [0; BORDER], u: [0; BORDER], v: [0; BORDER] };
-        if draw.borders == [0; 4] {
-            return out;
+        let (surface, rates) = (draw.surface(), [draw.rate_u(), draw.rate_v()]);
+        let stride = rates[0] as usize + 1;
+        let last = stride * rates[1] as usize;
+        for (corner, at) in [0, rates[0] as usize, last, last + rates[0] as usize].into_iter().enumerate() {
+            if surface.has_strayed(corner) {
+                out.put(at, surface.corner(corner));
+            }
         }
-        let (rate_u, rate_v) = (draw.rate_u(), draw.rate_v());
-        for column in 0..=rate_u {
-            out.look_at(draw, 0, column);
-            out.look_at(draw, rate_v, column);
-        }
-        for row in 1..rate_v {
-            out.look_at(draw, row, 0);
-            out.look_at(draw, row, rate_u);
+        for (side, (first, step)) in [(0, 1), (last, 1), (0, stride), (stride - 1, stride)].into_iter().enumerate() {
+            let rate = rates[side / 2];
+            if surface.is_regular(side, rate) {
+                continue;
+            }
+            for index in 1..rate {
+                out.put(first + index as usize * step, surface.border_vertex(side, index, rate));
+            }
         }
         out
     }
 
     #[inline(always)]
-    fn look_at(&mut self, draw: Draw, row: u32, column: u32) {
-        let [u, v] = draw.vertex(row, column);
-        if u != draw.column(column) || v != draw.row(row) {
-            let at = &mut self.count;
-            self.at[*at] = row as usize * (draw.rate_u() as usize + 1) + column as usize;
-            (self.u[*at], self.v[*at]) = (u, v);
-            *at += 1;
-        }
+    fn put(&mut self, at: usize, [u, v]: [u32; 2]) {
+        (self.at[self.count], self.u[self.count], self.v[self.count]) = (at, u, v);
+        self.count += 1;
     }
 
     fn blocks(&self) -> impl Iterator<Item = usize> + use<> {

@@ -1,0 +1,62 @@
+//! `micropoly bench --dicing`: lengths and number of micropolygons, and what watertight borders cost.
+
+use micropoly::dicing::Dicing;
+use micropoly::{Result, Scene, scene_file};
+
+use super::args::BenchArguments;
+use super::bench::short;
+use super::render::write_json;
+
+pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
+    say!(
+        "{:<12} {:>14} {:>8} {:>9} {:>10} {:>11} {:>6}  sides by length, eighths of the target, % (last: longer than two targets)",
+        "scene",
+        "micropolygons",
+        "of fixed",
+        "in range",
+        "naive ms",
+        "watertight",
+        "ratio"
+    );
+    let mut rows = Vec::new();
+    for scene in scenes(&arguments.scenes)? {
+        let row = Dicing::measure(&scene, &arguments.frame.options(), arguments.repeat)?;
+        say!("{}", line(&row));
+        rows.push(row);
+    }
+    match &arguments.json {
+        Some(path) => write_json(path, &rows),
+        None => Ok(()),
+    }
+}
+
+fn scenes(files: &[std::path::PathBuf]) -> Result<Vec<Scene>> {
+    if !files.is_empty() {
+        return files.iter().map(Scene::load).collect();
+    }
+    let built_in = [
+        ("hair", include_str!("../../scenes/hair.toml")),
+        ("columns", include_str!("../../scenes/columns.toml")),
+        ("city", include_str!("../../scenes/city.toml")),
+        ("eyesplit", include_str!("../../scenes/eyesplit.toml")),
+    ];
+    let parsed = |(name, text): (&str, &str)| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
+    built_in.into_iter().map(parsed).collect()
+}
+
+fn line(row: &Dicing) -> String {
+    let all = row.lengths.sides.iter().sum::<u64>().max(1) as f64;
+    let shares: Vec<String> =
+        row.lengths.sides.iter().map(|count| format!("{:.1}", *count as f64 / all * 100.0)).collect();
+    format!(
+        "{:<12} {:>14} {:>8.3} {:>7.1} % {:>10.2} {:>11.2} {:>6.3}  {}",
+        short(&row.scene),
+        row.lengths.micropolygons,
+        row.lengths.micropolygons as f64 / row.fixed as f64,
+        row.in_range * 100.0,
+        row.naive_seconds * 1e3,
+        row.watertight_seconds * 1e3,
+        row.watertight_seconds / row.naive_seconds,
+        shares.join(" ")
+    )
+}

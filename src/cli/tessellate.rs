@@ -1,0 +1,34 @@
+//! `micropoly tessellate`.
+
+use std::time::Instant;
+
+use micropoly::mesh::Mesh;
+use micropoly::{Result, Scene};
+
+use super::args::TessellateArguments;
+use super::render::check_folder;
+
+pub(crate) fn run(arguments: &TessellateArguments) -> Result<()> {
+    let start = Instant::now();
+    let (path, format) = &arguments.output;
+    check_folder(path)?;
+    let scene = Scene::load(&arguments.scene)?;
+    let mesh = Mesh::of(&scene, &arguments.options())?;
+    mesh.save(path, *format)?;
+    if mesh.limited > 0 {
+        eprintln!(
+            "note: {} surfaces are longer than --dice micropolygons and may not be split: beside them the mesh may be open; \
+             choose a larger --max-depth or --micropolygon-size",
+            mesh.limited
+        );
+    }
+    eprintln!("mesh          {}", path.display());
+    eprintln!("patches       {}", scene.patch_count());
+    eprintln!("vertices      {}", mesh.positions.len());
+    eprintln!("triangles     {}", mesh.triangles.len());
+    if arguments.check {
+        eprintln!("open edges    {}", mesh.open_edges());
+    }
+    eprintln!("seconds       {:.3}", start.elapsed().as_secs_f64());
+    Ok(())
+}
