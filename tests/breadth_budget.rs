@@ -78,7 +78,7 @@ impl Job for Render<'_> {
     type Output = (Result<Rendering>, u64);
 
     fn run<D: Device>(self, device: D, name: String) -> Self::Output {
-        let frame = FrameOptions { width: 320, height: 180, ..FrameOptions::default() };
+        let frame = FrameOptions { width: 320, height: 180, bound: 4.0, ..FrameOptions::default() };
         let options =
             RenderOptions { frame, batch: self.1, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
         let most = Rc::new(Cell::new(0));

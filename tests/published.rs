@@ -21,7 +21,8 @@ fn original(test: &str, name: &str) -> Option<PathBuf> {
 
 /// Renders as in the thesis, 1280×720 at 8 pixels and 23 levels, all surfaces of a level at once.
 fn rendered(path: &Path, profile: Profile) -> Rendering {
-    let frame = FrameOptions { profile, rate: 1, ..FrameOptions::default() };
+    let levels = if profile == Profile::Weber2014 { 23 } else { FrameOptions::default().levels };
+    let frame = FrameOptions { profile, rate: 1, bound: 8.0, levels, ..FrameOptions::default() };
     let options = RenderOptions { frame, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
     render(&Scene::load(path).expect("a scene"), &options, |_| {}).expect("renders")
 }

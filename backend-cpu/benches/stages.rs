@@ -5,7 +5,7 @@
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, DRAW, DRAW_LIMITED, Draw, Frame, Object, Patch, SPLIT_U, Sample, Surface, Verdict,
+    CULL, Colour, DRAW, DRAW_LIMITED, Draw, Frame, Object, Patch, Sample, Surface, Verdict,
 };
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
@@ -40,8 +40,7 @@ fn ball() -> Ball {
         match verdict.code {
             CULL => {}
             DRAW | DRAW_LIMITED => draws.push(Draw::new(surface, verdict)),
-            SPLIT_U => stack.extend(surface.halves_u()),
-            _ => stack.extend(surface.halves_v()),
+            _ => stack.extend(surface.halves(verdict)),
         }
     }
     Ball { frame, object, patches, bounded, draws }
@@ -77,7 +76,7 @@ fn dice_all(ball: &Ball, grids: &mut [Grid]) {
     for (index, draw) in ball.draws.iter().enumerate() {
         let net = Net::in_eye_space(&ball.patches[draw.patch_id as usize], &ball.object);
         let count = grids.len();
-        dice(&net, &ball.frame, draw.surface(), &mut grids[index % count]);
+        dice(&net, &ball.frame, *draw, &mut grids[index % count]);
     }
 }
 
@@ -98,7 +97,8 @@ fn sample_all(ball: &Ball, grids: &[Grid], band: &mut Band<'_>) {
 
 fn stages(criterion: &mut Criterion) {
     let ball = ball();
-    let vertices = ball.draws.len() as u64 * 81;
+    let vertices =
+        ball.draws.iter().map(|draw| u64::from((draw.rate_u() + 1) * (draw.rate_v() + 1))).sum::<u64>();
     let mut group = criterion.benchmark_group("stages");
 
     group.throughput(Throughput::Elements(ball.bounded.len() as u64));
@@ -115,13 +115,14 @@ fn stages(criterion: &mut Criterion) {
 
     // As many grids as fit a second-level cache; in a frame each is sampled while it is in the first.
     let some = Ball { draws: ball.draws.iter().step_by(ball.draws.len() / 64).copied().collect(), ..ball };
+    let micropolygons = some.draws.iter().map(|draw| u64::from(draw.rate_u() * draw.rate_v())).sum();
     let mut grids = vec![Grid::default(); some.draws.len()];
     dice_all(&some, &mut grids);
     shade_all(&some, &mut grids);
     let Frame { width, height, .. } = some.frame;
     let pixels = (width * height) as usize;
     let mut colours = vec![Colour::default(); pixels];
-    group.throughput(Throughput::Elements(some.draws.len() as u64 * 64));
+    group.throughput(Throughput::Elements(micropolygons));
     group.bench_function("sample (micropolygons)", |bencher| {
         bencher.iter_batched_ref(
             || vec![Sample::default(); pixels],

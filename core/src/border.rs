@@ -136,7 +136,7 @@ impl Surface {
         (steps + (1 << halved) - 1) >> halved
     }
 
-    /// `u` and `v` of the vertex with which step `index` of `rate` along a side ends: the nearest of the side's own.
+    /// `u` and `v` of the vertex with which step `index` of `rate` along a side ends: one of the side's own.
     #[inline(always)]
     #[must_use]
     pub const fn border_vertex(self, side: usize, index: u32, rate: u32) -> [u32; 2] {
@@ -152,12 +152,12 @@ impl Surface {
         if steps == 0 {
             return self.on_side(side, start + place(index, rate, own_bits));
         }
-        // In units of steps: where the piece's vertices at or before both ends are, and the one nearest to this place.
+        // The piece's vertices at or before both ends, and one between them: the grid has no fewer steps, so each
+        // of them is chosen.
         let halved = bits - own_bits;
         let before = (start & ((1 << bits) - 1)) >> own_bits;
         let (low, high) = ((before * steps) >> halved, ((before + 1) * steps) >> halved);
-        let whole = rate << halved;
-        let step = (2 * (before * rate + index) * steps + whole) / (2 * whole);
+        let step = low + (2 * index * (high - low) + rate) / (2 * rate);
         if step <= low {
             self.corner(first)
         } else if step >= high {

@@ -81,7 +81,7 @@ fn depth_is_interpolated() {
 fn jittered_grid(random: &mut fastrand::Rng, rate: u32, cell: i32) -> (Frame, Grid) {
     let frame = Frame { width: SIZE as u32, height: SIZE as u32, rate, ..Frame::default() };
     let mut grid = Grid::default();
-    grid.stride = rate as usize + 1;
+    (grid.stride, grid.rows) = (rate as usize + 1, rate as usize + 1);
     let jitter = cell / 4;
     let (left, top) = (random.i32(-500..3000), random.i32(-500..3000));
     for at in 0..grid.stride * grid.stride {

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{exact_point, random, random_patch, random_surface, random_view};
+use common::{draw_at, exact_point, random, random_patch, random_rates, random_surface, random_view};
 use micropoly_core::abi::{PARAM_ONE, Surface};
 use micropoly_core::kernel::dice::{Grid, dice, position_at};
 use micropoly_core::patch::Net;
@@ -51,16 +51,14 @@ fn blossoms_are_convex_and_give_the_same_curve() {
 fn diced_vertices_lie_on_the_surface_and_do_not_depend_on_the_surface_diced() {
     let mut random = random(4);
     for round in 0..300 {
-        let (mut frame, object) = random_view(&mut random, 0.1);
-        frame.rate = 1 << random.u32(0..=4);
+        let (frame, object) = random_view(&mut random, 0.1);
         let net = Net::in_eye_space(&random_patch(&mut random, 0.7), &object);
         let surface = random_surface(&mut random, 12);
         let mut grid = Grid::default();
-        dice(&net, &frame, surface, &mut grid);
-        for at in 0..grid.stride * grid.stride {
-            let (row, column) = ((at / grid.stride) as u32, (at % grid.stride) as u32);
-            let u = surface.u + column * (surface.u_size() / frame.rate);
-            let v = surface.v + row * (surface.v_size() / frame.rate);
+        let draw = draw_at(surface, random_rates(&mut random));
+        dice(&net, &frame, draw, &mut grid);
+        for at in 0..grid.stride * grid.rows {
+            let [u, v] = draw.vertex((at / grid.stride) as u32, (at % grid.stride) as u32);
             assert_eq!(grid.point(at), position_at(&net, u, v), "round {round}, vertex {at}");
             let exact = exact_point(&net, f64::from(param(u)), f64::from(param(v)));
             for k in 0..3 {
@@ -106,7 +104,7 @@ fn normals_do_not_vanish_where_an_edge_is_collapsed() {
         }
         let net = Net::in_eye_space(&collapsed, &object);
         let mut grid = Grid::default();
-        dice(&net, &frame, Surface::root(0), &mut grid);
+        dice(&net, &frame, draw_at(Surface::root(0), [8, 8]), &mut grid);
         let (stride, last) = (grid.stride, grid.stride - 1);
         for k in 0..stride {
             // The vertex on the collapsed edge, and the next one inwards.
@@ -134,8 +132,8 @@ fn zero_area_patches_still_have_unit_normals() {
     line.z = [0.5; 16];
     for patch in [line, micropoly_core::abi::Patch::default()] {
         let mut grid = Grid::default();
-        dice(&Net::in_eye_space(&patch, &object), &frame, Surface::root(0), &mut grid);
-        for at in 0..grid.stride * grid.stride {
+        dice(&Net::in_eye_space(&patch, &object), &frame, draw_at(Surface::root(0), [8, 8]), &mut grid);
+        for at in 0..grid.stride * grid.rows {
             let length = grid.unit_normal(at).map(|n| n * n).iter().sum::<f32>();
             assert!((length - 1.0).abs() < 1.0e-5);
         }

@@ -183,10 +183,11 @@ pub(crate) struct FrameArguments {
     /// How the grids of neighbouring surfaces meet; all but watertight leave cracks, and are there to compare with.
     #[arg(long, value_enum, default_value_t = BordersChoice::Watertight)]
     borders: BordersChoice,
-    /// Levels of subdivision: a patch is halved at most N - 1 times.
-    #[arg(long, value_name = "N", default_value = "23", allow_negative_numbers = true,
+    /// Levels of subdivision: a patch is halved at most N - 1 times; where that is too few there can be cracks.
+    /// [default: 41; 23 for --profile weber2014]
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_LEVELS)))]
-    max_depth: u32,
+    max_depth: Option<u32>,
     /// Surfaces worked on at once. The image does not depend on it.
     #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "memory",
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_BATCH)))]
@@ -219,6 +220,13 @@ impl FrameArguments {
         self.profile == ProfileChoice::Weber2014
     }
 
+    /// To compare subdivision with what Weber published: surfaces of 8 pixels, unless others are asked for.
+    pub(crate) fn options_as_published(&self) -> RenderOptions {
+        let mut options = self.options();
+        options.frame.bound = self.bound.unwrap_or(8.0);
+        options
+    }
+
     pub(crate) fn options(&self) -> RenderOptions {
         let (width, height) = self.res;
         let batch = match (self.batch, self.memory) {
@@ -235,7 +243,7 @@ impl FrameArguments {
             rate,
             size: self.micropolygon_size,
             borders: self.borders.into(),
-            levels: self.max_depth,
+            levels: self.max_depth.unwrap_or(if self.is_weber() { 23 } else { MAX_LEVELS }),
             cull_backfaces: self.cull_backfaces,
             whole: false,
             profile: self.profile.into(),

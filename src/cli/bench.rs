@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
         batches: arguments.batches(),
         views: arguments.views(),
         repeat: arguments.repeat,
-        options: arguments.frame.options(),
+        options: arguments.frame.options_as_published(),
     };
     let (mut rows, framed) = (Vec::new(), plan.views != Views::Camera);
     say!("{}{}", if framed { "frame    " } else { "" }, head());

@@ -229,7 +229,7 @@ fn by_extents(frame: &Frame, surface: Surface, extents: (f32, f32)) -> u32 {
 /// The verdict, with sides and rates.
 #[inline(always)]
 fn with_sides(frame: &Frame, surface: Surface, lengths: &Lengths, verdict: Verdict) -> Verdict {
-    let sides = divide(frame, surface, lengths);
+    let sides = divide(frame, surface, lengths, verdict.code);
     let verdict = verdict.with_sides(sides, [0; 2]);
     if verdict.code == SPLIT_U || verdict.code == SPLIT_V {
         return verdict;

@@ -4,7 +4,7 @@
 //! neighbours have bit by bit, in an order that is the same from either end. What is nearer than the near plane is
 //! taken at the near plane.
 
-use crate::abi::{FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_BITS, PARAM_ONE, Surface};
+use crate::abi::{DRAW_LIMITED, FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_BITS, PARAM_ONE, Surface};
 use crate::border::{SIDES, Side};
 use crate::kernel::bound::{Reach, distance, measured_point, point_on_screen};
 use crate::kernel::dice_gregory::evaluate_gregory;
@@ -64,15 +64,15 @@ pub fn steps(frame: &Frame, length: f32) -> u32 {
 }
 
 /// How the sides of a surface are divided, given their lengths: as they were, unless they are live and short
-/// enough.
+/// enough; or long, but may not be halved any more.
 #[inline(always)]
 #[must_use]
-pub fn divide(frame: &Frame, surface: Surface, lengths: &Lengths) -> [Side; 4] {
+pub fn divide(frame: &Frame, surface: Surface, lengths: &Lengths, code: u32) -> [Side; 4] {
     let mut out = [Side::LIVE; 4];
     for side in SIDES {
         let known = surface.side(side);
-        let is_short = lengths.sides[side] <= frame.bound && frame.flags & FLAG_NAIVE == 0;
-        out[side] = if known.steps == 0 && is_short {
+        let is_last = lengths.sides[side] <= frame.bound || code == DRAW_LIMITED;
+        out[side] = if known.steps == 0 && is_last && frame.flags & FLAG_NAIVE == 0 {
             let level = if side < 2 { surface.u_level() } else { surface.v_level() };
             Side { steps: steps(frame, lengths.sides[side]), bits: PARAM_BITS - level }
         } else {

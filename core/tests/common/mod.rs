@@ -2,7 +2,10 @@
 #![allow(dead_code, missing_docs, unreachable_pub)] // each test uses its part
 
 use glam::{DAffine3, DVec3, Vec3};
-use micropoly_core::abi::{Frame, Object, Patch, SPLIT_U, SPLIT_V, Surface, Verdict};
+use micropoly_core::abi::{
+    DRAW, Draw, Frame, MAX_RATE, Object, PARAM_BITS, Patch, SPLIT_U, SPLIT_V, Surface, Verdict,
+};
+use micropoly_core::border::{SIDES, Side};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::patch::Net;
 use micropoly_core::patch::gregory::INNER;
@@ -62,14 +65,38 @@ pub fn view(camera: &Camera, width: u32, height: u32) -> (Frame, Object) {
     (camera.frame(&options, Vec3::splat(0.1), &[light]), camera.object(DAffine3::IDENTITY, &material))
 }
 
-/// A surface somewhere in the first patch.
+/// A surface somewhere in the first patch; often its sides were divided somehow on the way there.
 pub fn random_surface(random: &mut fastrand::Rng, deepest: u32) -> Surface {
-    let mut surface = Surface::root(0);
+    let (mut surface, seldom) = (Surface::root(0), [2, 8, u32::MAX][random.usize(0..3)]);
     for _ in 0..random.u32(0..=deepest) {
         let code = if random.bool() { SPLIT_U } else { SPLIT_V };
-        surface = surface.halves(Verdict { code, ..Verdict::default() })[usize::from(random.bool())];
+        let verdict = divided(random, surface, code, seldom);
+        surface = surface.halves(verdict)[usize::from(random.bool())];
     }
     surface
+}
+
+/// A verdict on a surface that divides one in `seldom` of its live sides.
+pub fn divided(random: &mut fastrand::Rng, surface: Surface, code: u32, seldom: u32) -> Verdict {
+    let sides = SIDES.map(|side| {
+        let (known, level) = (surface.side(side), [surface.u_level(), surface.v_level()][side / 2]);
+        let steps = random.u32(1..=MAX_RATE);
+        if known.steps > 0 || random.u32(0..seldom) > 0 { known } else { Side { steps, bits: PARAM_BITS - level } }
+    });
+    Verdict { code, ..Verdict::default() }.with_sides(sides, [0; 2])
+}
+
+/// A surface to be diced so finely, or finer if its sides need it.
+pub fn draw_at(surface: Surface, rates: [u32; 2]) -> Draw {
+    let least = |first: usize| surface.steps_needed(first).max(surface.steps_needed(first + 1));
+    let rates = [rates[0].max(least(0)), rates[1].max(least(2))];
+    let sides = SIDES.map(|side| surface.side(side));
+    Draw::new(surface, Verdict { code: DRAW, ..Verdict::default() }.with_sides(sides, rates))
+}
+
+/// Rates from 1 to the largest.
+pub fn random_rates(random: &mut fastrand::Rng) -> [u32; 2] {
+    [0; 2].map(|_| random.u32(1..=MAX_RATE))
 }
 
 /// The point at (u, v) by de Casteljau's algorithm in f64.

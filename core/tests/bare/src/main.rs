@@ -124,7 +124,7 @@ fn draw(scene: &Scene, draws: &[Draw], band: &mut Band<'_>) {
     let Scene { frame, object, patch } = scene;
     let mut grid = Grid::default();
     for draw in draws {
-        dice(&Net::in_eye_space(patch, object), frame, draw.surface(), &mut grid);
+        dice(&Net::in_eye_space(patch, object), frame, *draw, &mut grid);
         shade(frame, object, &mut grid);
         sample(frame, *draw, &grid, band);
     }
