@@ -94,7 +94,7 @@ static uint2 on_side(Surface surface, uint side, uint along) {
     }
 }
 
-// u and v of the vertex with which step `index` of `rate` along a side ends: the nearest of the side's own.
+// u and v of the vertex with which step `index` of `rate` along a side ends: one of the side's own.
 static uint2 border_vertex(Surface surface, uint number, uint index, uint rate) {
     const uint2 ends = corners_of(number);
     if (index == 0u || index == rate) {
@@ -106,12 +106,12 @@ static uint2 border_vertex(Surface surface, uint number, uint index, uint rate) 
     if (steps == 0u) {
         return on_side(surface, number, start + place(index, rate, own_bits));
     }
-    // In units of steps: where the piece's vertices at or before both ends are, and the one nearest to this place.
+    // The piece's vertices at or before both ends, and one between them: the grid has no fewer steps, so each of them
+    // is chosen.
     const uint halved = bits - own_bits;
     const uint before = (start & ((1u << bits) - 1u)) >> own_bits;
     const uint low = (before * steps) >> halved, high = ((before + 1u) * steps) >> halved;
-    const uint whole = rate << halved;
-    const uint step = (2u * (before * rate + index) * steps + whole) / (2u * whole);
+    const uint step = low + (2u * index * (high - low) + rate) / (2u * rate);
     if (step <= low || step >= high) {
         return corner(surface, step <= low ? ends.x : ends.y);
     }

@@ -178,7 +178,7 @@ static uint by_extents(__constant Frame *frame, Surface surface, float u, float 
 // The verdict, with sides and rates.
 static Verdict with_sides(__constant Frame *frame, Surface surface, const Lengths *lengths, Verdict verdict) {
     Side sides[4];
-    divide(frame, surface, lengths, sides);
+    divide(frame, surface, lengths, verdict.code, sides);
     const Verdict halved = with_packed(verdict, sides, (uint2)(0u));
     if (verdict.code == SPLIT_U || verdict.code == SPLIT_V) {
         return halved;

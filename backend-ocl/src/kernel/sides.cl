@@ -92,12 +92,14 @@ static uint steps_of(__constant Frame *frame, float length) {
     return (uint)greater(1, lesser(steps, (int)frame->rate));
 }
 
-// How the sides of a surface are divided: as they were, unless they are live and short enough.
-static void divide(__constant Frame *frame, Surface surface, const Lengths *lengths, Side *sides) {
+// How the sides of a surface are divided: as they were, unless they are live and short enough; or long, but may not be
+// halved any more.
+static void divide(__constant Frame *frame, Surface surface, const Lengths *lengths, uint code, Side *sides) {
     for (uint number = 0u; number < 4u; number++) {
         const float length = lengths->sides[number];
         Side side = side_of(surface, number);
-        if (side.steps == 0u && length <= frame->bound && (frame->flags & FLAG_NAIVE) == 0u) {
+        const bool is_last = length <= frame->bound || code == DRAW_LIMITED;
+        if (side.steps == 0u && is_last && (frame->flags & FLAG_NAIVE) == 0u) {
             side.steps = steps_of(frame, length);
             side.bits = extent_of(surface, number).y;
         }
