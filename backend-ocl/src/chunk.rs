@@ -44,5 +44,5 @@ pub(crate) fn bytes(rate: u32) -> u64 {
 /// Words of the grids of a chunk; see `grids.cl`.
 fn grids_words(rate: u32) -> u64 {
     let vertices = (u64::from(rate) + 1).pow(2);
-    GRIDS + DRAWS * (3 * (vertices + 8) + 6 * vertices)
+    GRIDS + DRAWS * 9 * vertices
 }

@@ -10,8 +10,8 @@ use micropoly_core::stage::Stage;
 /// Mutants that nothing can notice.
 const ALLOWED: &[Allowed] = &[
     Allowed {
-        file: "bound.cl",
-        line: "return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));",
+        file: "sides.cl",
+        line: "return sqrt(add(add(add(mul(dx, dx), mul(dy, dy)), mul(dz, dz)), LENGTH_TINY));",
         operator: "add(",
         why: "a length is less than a millionth of a pixel either way",
     },
@@ -99,12 +99,12 @@ const ALLOWED: &[Allowed] = &[
 fn stages(file: &str) -> Vec<Stage> {
     match file {
         "num.cl" => vec![Stage::KnownAnswers, Stage::Bound, Stage::Draw],
-        "surface.cl" => vec![Stage::Split, Stage::Bound, Stage::Draw],
+        "surface.cl" | "border.cl" => vec![Stage::Split, Stage::Bound, Stage::Draw],
         "counts.cl" => vec![Stage::Take, Stage::Scan, Stage::Balance, Stage::Deal, Stage::Local],
         "take.cl" => vec![Stage::Take, Stage::Bound, Stage::Local],
         "scan.cl" => vec![Stage::Scan, Stage::Local],
         "bezier.cl" | "net.cl" | "gregory.cl" | "project.cl" => vec![Stage::Bound, Stage::Draw],
-        "weber.cl" => vec![Stage::Bound],
+        "weber.cl" | "sides.cl" => vec![Stage::Bound],
         _ => {
             let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));
             vec![own.unwrap_or(Stage::Draw)]

@@ -2,7 +2,7 @@
 //!
 //! Runs on every OpenCL device there is; without one it fails, since nothing would be tested.
 
-use micropoly::{FrameOptions, Profile, Scene};
+use micropoly::{Borders, FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
 use micropoly_conformance::{Case, Schedule, run, run_scheduled};
@@ -18,10 +18,13 @@ const SCENES: [&str; 5] = ["teapot", "eyesplit", "spheres", "still-life", "grego
 const SMALL: FrameOptions = FrameOptions {
     width: 320,
     height: 180,
-    bound: 8.0,
-    rate: 8,
+    bound: 16.0,
+    rate: 16,
+    size: 1.0,
+    borders: Borders::Watertight,
     levels: 23,
     cull_backfaces: false,
+    whole: false,
     profile: Profile::Conservative,
 };
 
@@ -69,8 +72,35 @@ fn all_scenes_have_the_bits_of_the_cpu() {
 
 #[test]
 fn other_dice_rates_have_the_bits_of_the_cpu() {
-    for (rate, bound) in [(16, 20.0), (2, 20.0), (1, 3.0)] {
+    for (rate, bound) in [(8, 8.0), (7, 7.0), (16, 20.0), (2, 20.0), (1, 3.0)] {
         compare(&case("teapot", &FrameOptions { rate, bound, ..SMALL }), &[4096], &OpenOptions::default());
+    }
+}
+
+#[test]
+fn other_borders_have_the_bits_of_the_cpu() {
+    for borders in [Borders::Naive, Borders::Fixed] {
+        for scene in ["teapot", "gregory"] {
+            let options = FrameOptions { borders, ..SMALL };
+            compare(&case(scene, &options), &[4096], &OpenOptions::default());
+        }
+    }
+}
+
+#[test]
+fn small_micropolygons_have_the_bits_of_the_cpu() {
+    let options = FrameOptions { size: 0.5, bound: 8.0, ..SMALL };
+    for scene in ["teapot", "hair"] {
+        compare(&case(scene, &options), &[4096], &OpenOptions::default());
+    }
+}
+
+/// Behind the eye too, surfaces are bounded, and corners that strayed may be cut off.
+#[test]
+fn a_mesh_that_is_whole_has_the_bits_of_the_cpu() {
+    for scene in ["teapot", "eyesplit", "gregory"] {
+        let options = FrameOptions { whole: true, ..SMALL };
+        compare(&case(scene, &options), &[4096], &OpenOptions::default());
     }
 }
 

@@ -478,6 +478,8 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
             }
         }
     }
+    // Sides were divided with no regard to the frame, whose rate is the largest there is.
+    frame.rate = draws.iter().fold(frame.rate, |most, draw| most.max(draw.rate_u()).max(draw.rate_v()));
     let waiting = random.u32(0..=draws.len() as u32);
     let control = Control { waiting, fresh: draws.len() as u32 - waiting, ..Control::default() };
     draws.push(Draw::default());

@@ -1,7 +1,7 @@
 // Mirrors core/src/kernel/balance.rs: LOCAL's groups are counted, and told what each will have in its next round.
 // One work-group; each of its work-items has an unbroken run of the groups.
 
-// Counts of some groups together: held, draws, processed, culled, limited, peak.
+// Counts of some groups together: held, draws, processed, culled, limited, peak, micropolygons.
 typedef uint8 Totals;
 
 static uint share(uint total, uint index, uint players) {
@@ -18,7 +18,7 @@ static Totals totals_of(__global const Group *groups, uint from, uint to) {
     for (uint index = from; index < to; index++) {
         __global const Group *group = groups + index;
         all += (Totals)(group->held, group->draws, group->processed, group->culled, group->limited,
-                        group->peak, 0u, 0u);
+                        group->peak, group->micropolygons, 0u);
     }
     return all;
 }
@@ -60,6 +60,7 @@ static Control counted_groups(Control control, __global const Limits *limits, To
     control.culled += all.s3;
     control.drawn += draws;
     control.limited += all.s4;
+    control.micropolygons += all.s6;
     control.overflow = saturating_sub(control.waiting + draws, limits->draw_room);
     return control;
 }

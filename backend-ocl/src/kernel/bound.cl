@@ -3,21 +3,193 @@
 // Left, right, top and bottom in pixels; right and bottom are one past the last.
 typedef int4 PixelBox;
 
+// Where on screen the control points of a surface lie, and corners that have strayed from it; how far what is drawn
+// can be outside of their hull.
+typedef struct {
+    Reach x;
+    Reach y;
+    float margin;
+} Seen;
+
 static Verdict new_verdict(uint code, PixelBox pixels) {
-    const Verdict verdict = {code, (uint)pixels.x | (uint)pixels.y << 16, (uint)pixels.z | (uint)pixels.w << 16};
+    const Verdict verdict = {code, (uint)pixels.x | (uint)pixels.y << 16, (uint)pixels.z | (uint)pixels.w << 16, 0u,
+                             0u};
     return verdict;
 }
 
-static uint refine(__constant Frame *frame, Surface surface, float u, float v, bool too_long_u, bool too_long_v) {
+static PixelBox whole_image(__constant Frame *frame) {
+    return (PixelBox)(0, (int)frame->width, 0, (int)frame->height);
+}
+
+// The patch's own points, and what rounding can do.
+static void put_patch(uint zero, __global const Object *objects, __global const Patch *patches, Surface surface,
+                      Hull *hull) {
+    __global const Patch *patch = patches + surface.patch_id;
+    __global const Object *object = objects + patch->object;
+    in_eye_space(zero, patch, object, &hull->whole);
+    float reach = extent(&hull->whole);
+    hull->is_gregory = patch->faces != 0u;
+    if (hull->is_gregory) {
+        faces_in_eye_space(zero, patches + patch->faces, object, &hull->faces);
+        reach = max(reach, faces_extent(&hull->faces));
+    }
+    hull->slack = mul(reach, ROUNDING);
+}
+
+static void copy_net(const Net *from, Net *to) {
+    for (uint l = 0u; l < 16u; l++) {
+        to->x[l] = from->x[l];
+        to->y[l] = from->y[l];
+        to->z[l] = from->z[l];
+    }
+}
+
+// The surface's part of it.
+static void put_part(__constant Frame *frame, Surface surface, Hull *hull) {
+    const uint zero = frame->zero;
+    const bool exchanged = (frame->flags & FLAG_WEBER) != 0u;
+    hull->spread = hull->is_gregory ? centre_inner(zero, &hull->faces, &hull->whole, surface, exchanged) : 0.0f;
+    restricted(zero, &hull->whole, surface, &hull->part);
+    if (hull->is_gregory) {
+        copy_net(&hull->part, &hull->follower);
+        follow(zero, &hull->faces, &hull->follower, surface, exchanged);
+    }
+}
+
+static float nearest_of(uint zero, const Hull *hull) {
+    return sub(neg(fold_max(hull->part.z)), hull->spread);
+}
+
+static float farthest_of(uint zero, const Hull *hull) {
+    return add(neg(fold_min(hull->part.z)), hull->spread);
+}
+
+static float largest_of(const float *c) {
+    return max(fold_max(c), neg(fold_min(c)));
+}
+
+static float margin(__constant Frame *frame, float slack, float nearest) {
+    const uint zero = frame->zero;
+    return add(1.0f, mul(mul(frame->focal, slack), recip(nearest)));
+}
+
+// Where the control points are for measuring lengths.
+static void measured(__constant Frame *frame, const Net *part, Net *points) {
+    for (uint l = 0u; l < 16u; l++) {
+        const float3 at = measured_point(frame, (float3)(part->x[l], part->y[l], part->z[l]));
+        points->x[l] = at.x;
+        points->y[l] = at.y;
+        points->z[l] = at.z;
+    }
+}
+
+static float segment(uint zero, const Net *points, uint from, uint to) {
+    return distance_of(zero, (float3)(points->x[from], points->y[from], points->z[from]),
+                       (float3)(points->x[to], points->y[to], points->z[to]));
+}
+
+// Lengths of the control polygons in one direction; `step` control points from one to the next, `row` between polygons.
+static void polygons(uint zero, const Net *points, uint step, uint row, float *lengths) {
+    for (uint j = 0u; j < 4u; j++) {
+        const uint at = j * row;
+        lengths[j] = polygon(zero, segment(zero, points, at, at + step),
+                             segment(zero, points, at + step, at + 2u * step),
+                             segment(zero, points, at + 2u * step, at + 3u * step));
+    }
+}
+
+static void polygon_lengths(uint zero, const Net *points, Lengths *lengths) {
+    float along_u[4], along_v[4];
+    polygons(zero, points, 4u, 1u, along_u);
+    polygons(zero, points, 1u, 4u, along_v);
+    put_lengths(along_u, along_v, lengths);
+}
+
+// Lengths on screen of a hull whose control points are measured to be at `points`, which are then another's.
+static void lengths_of(__constant Frame *frame, Hull *hull, Surface surface, Net *points, Lengths *lengths) {
+    const uint zero = frame->zero;
+    polygon_lengths(zero, points, lengths);
+    if (!hull->is_gregory) {
+        return;
+    }
+    float sides[4];
+    for (uint side = 0u; side < 4u; side++) {
+        sides[side] = lengths->sides[side];
+    }
+    sides_of_gregory(frame, hull, surface, sides);
+    measured(frame, &hull->follower, points);
+    polygon_lengths(zero, points, lengths);
+    put_sides(sides, lengths);
+}
+
+// What the image shows of a hull that lies beyond the near plane.
+static Seen seen_of(__constant Frame *frame, const Hull *hull, float nearest, const Net *points) {
+    const uint zero = frame->zero;
+    const float off_axis = max(largest_of(points->x), largest_of(points->y));
+    const float wobble = mul(mul(add(frame->focal, off_axis), hull->spread), recip(nearest));
+    const Seen seen = {{fold_min(points->x), fold_max(points->x)},
+                       {fold_min(points->y), fold_max(points->y)},
+                       add(margin(frame, hull->slack, nearest), wobble)};
+    return seen;
+}
+
+static Seen with_strays(Seen seen, Strays strays) {
+    if (strays.are_some) {
+        seen.x = joined(seen.x, strays.x);
+        seen.y = joined(seen.y, strays.y);
+    }
+    return seen;
+}
+
+static int2 pixel_range(uint zero, Reach reach, float centre, uint size, float margin) {
+    const float end = number((int)size);
+    const float low = sub(add(reach.low, centre), margin);
+    const float high = add(add(reach.high, centre), add(margin, 1.0f));
+    return (int2)(floor(clamp(low, 0.0f, end)), floor(clamp(high, 0.0f, end)));
+}
+
+// The pixels that drawing what is seen can touch.
+static PixelBox box_around(__constant Frame *frame, Seen seen) {
+    const int2 columns = pixel_range(frame->zero, seen.x, frame->centre_x, frame->width, seen.margin);
+    const int2 rows = pixel_range(frame->zero, seen.y, frame->centre_y, frame->height, seen.margin);
+    return (PixelBox)(columns, rows);
+}
+
+static bool is_empty(PixelBox box) {
+    return box.x >= box.y || box.z >= box.w;
+}
+
+static uint refine(__constant Frame *frame, Surface surface, float u, float v) {
     const bool open_u = u_level(surface) < MAX_SPLITS;
     const bool open_v = v_level(surface) < MAX_SPLITS;
     if (level(surface) + 1u >= frame->levels) {
         return DRAW_LIMITED;
     }
     if (u > v) {
-        return open_u ? SPLIT_U : open_v && too_long_v ? SPLIT_V : DRAW_LIMITED;
+        return open_u ? SPLIT_U : open_v && v > frame->bound ? SPLIT_V : DRAW_LIMITED;
     }
-    return open_v ? SPLIT_V : open_u && too_long_u ? SPLIT_U : DRAW_LIMITED;
+    return open_v ? SPLIT_V : open_u && u > frame->bound ? SPLIT_U : DRAW_LIMITED;
+}
+
+static uint by_extents(__constant Frame *frame, Surface surface, float u, float v) {
+    return max(u, v) <= frame->bound ? DRAW : refine(frame, surface, u, v);
+}
+
+// The verdict, with sides and rates.
+static Verdict with_sides(__constant Frame *frame, Surface surface, const Lengths *lengths, Verdict verdict) {
+    Side sides[4];
+    divide(frame, surface, lengths, verdict.code, sides);
+    const Verdict halved = with_packed(verdict, sides, (uint2)(0u));
+    if (verdict.code == SPLIT_U || verdict.code == SPLIT_V) {
+        return halved;
+    }
+    return with_packed(verdict, sides, rates(frame, divided(surface, halved), lengths));
+}
+
+// The verdict on a surface in view that is so long.
+static Verdict by_length(__constant Frame *frame, Surface surface, const Lengths *lengths, PixelBox pixels) {
+    const uint code = by_extents(frame, surface, lengths->u, lengths->v);
+    return with_sides(frame, surface, lengths, new_verdict(code, pixels));
 }
 
 static bool beyond(__constant Frame *frame, const float *z, const float *c, float centre, float slack) {
@@ -38,220 +210,120 @@ static bool beside_the_view(__constant Frame *frame, const Net *part, float slac
         || beyond(frame, part->z, part->y, frame->centre_y, slack);
 }
 
-static float span(uint zero, float a, float b, float c, float d) {
-    return sub(max(max(a, b), max(c, d)), min(min(a, b), min(c, d)));
-}
-
-// How much the distance varies along u and along v.
-static float2 depth_spans(uint zero, const float *z) {
-    float2 spans = (float2)(0.0f, 0.0f);
-    for (uint l = 0u; l < 4u; l++) {
-        const float *p = z + 4u * l;
-        spans.x = max(spans.x, span(zero, z[l], z[4u + l], z[8u + l], z[12u + l]));
-        spans.y = max(spans.y, span(zero, p[0], p[1], p[2], p[3]));
-    }
-    return spans;
-}
-
-static void on_screen(__constant Frame *frame, const Net *part, float *xs, float *ys) {
+// How long a surface that crosses the near plane would be if all of it were there, and turned to the eye: the code of
+// the verdict on it.
+static uint code_if_cut(__constant Frame *frame, Surface surface, const Net *part, Net *points) {
+    const uint zero = frame->zero;
+    const float scale = mul(frame->focal, recip(frame->near));
     for (uint l = 0u; l < 16u; l++) {
-        const float3 seen = perspective(frame, (float3)(part->x[l], part->y[l], part->z[l]));
-        xs[l] = clamp(seen.x, neg(FAR_OFF), FAR_OFF);
-        ys[l] = clamp(seen.y, neg(FAR_OFF), FAR_OFF);
+        points->x[l] = clamp(mul(part->x[l], scale), neg(FAR_OFF), FAR_OFF);
+        points->y[l] = clamp(mul(part->y[l], scale), neg(FAR_OFF), FAR_OFF);
+        points->z[l] = clamp(mul(part->z[l], scale), neg(FAR_OFF), FAR_OFF);
     }
+    Lengths lengths;
+    polygon_lengths(zero, points, &lengths);
+    return by_extents(frame, surface, lengths.u, lengths.v);
 }
 
-static float segment(uint zero, const float *x, const float *y, uint from, uint to) {
-    const float dx = sub(x[to], x[from]), dy = sub(y[to], y[from]);
-    return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));
-}
-
-// Length of the longest control polygon; `step` control points from one to the next, `row` between polygons.
-static float longest_polygon(uint zero, const float *x, const float *y, uint step, uint row) {
-    float polygons[4];
-    for (uint j = 0u; j < 4u; j++) {
-        const uint at = j * row;
-        const float first = segment(zero, x, y, at, at + step);
-        const float second = segment(zero, x, y, at + step, at + 2u * step);
-        polygons[j] = add(add(first, second), segment(zero, x, y, at + 2u * step, at + 3u * step));
-    }
-    return max(max(polygons[0], polygons[1]), max(polygons[2], polygons[3]));
-}
-
-static float length_u(uint zero, const float *x, const float *y) {
-    return longest_polygon(zero, x, y, 4u, 1u);
-}
-
-static float length_v(uint zero, const float *x, const float *y) {
-    return longest_polygon(zero, x, y, 1u, 4u);
-}
-
-static int2 pixel_range(uint zero, const float *offsets, float centre, uint size, float margin) {
-    const float end = number((int)size);
-    const float low = sub(add(fold_min(offsets), centre), margin);
-    const float high = add(add(fold_max(offsets), centre), add(margin, 1.0f));
-    return (int2)(floor(clamp(low, 0.0f, end)), floor(clamp(high, 0.0f, end)));
-}
-
-static PixelBox box_around(__constant Frame *frame, const float *x, const float *y, float margin) {
-    const int2 columns = pixel_range(frame->zero, x, frame->centre_x, frame->width, margin);
-    const int2 rows = pixel_range(frame->zero, y, frame->centre_y, frame->height, margin);
-    return (PixelBox)(columns, rows);
-}
-
-static bool is_empty(PixelBox box) {
-    return box.x >= box.y || box.z >= box.w;
-}
-
-// Control hull of a surface; what rounding can do; how far the surface can be from the one whose hull it is, and
-// another net, whose lengths are the surface's.
-typedef struct {
-    Net part;
-    Net follower;
-    float slack;
-    float spread;
-} Hull;
-
-// Control points on screen, and how far the surface can be outside of their hull.
-typedef struct {
-    float x[16];
-    float y[16];
-    float margin;
-} Seen;
-
-static float largest_of(const float *c) {
-    return max(fold_max(c), neg(fold_min(c)));
-}
-
-static void copy_net(const Net *from, Net *to) {
-    for (uint l = 0u; l < 16u; l++) {
-        to->x[l] = from->x[l];
-        to->y[l] = from->y[l];
-        to->z[l] = from->z[l];
-    }
-}
-
-static void hull_of(__constant Frame *frame, Net *whole, const Faces *faces, bool is_gregory, Surface surface,
-                    Hull *hull) {
+// What is off the axis is seen farthest off it at the near plane.
+static Reach reach_if_cut(__constant Frame *frame, float low, float high, float at_near, float at_far) {
     const uint zero = frame->zero;
-    float reach = extent(whole);
-    hull->spread = 0.0f;
-    if (is_gregory) {
-        reach = max(reach, faces_extent(faces));
-        hull->spread = centre_inner(zero, faces, whole, surface, (frame->flags & FLAG_WEBER) != 0u);
+    return new_reach(mul(mul(low, frame->focal), low < 0.0f ? at_near : at_far),
+                     mul(mul(high, frame->focal), high > 0.0f ? at_near : at_far));
+}
+
+// The pixels that drawing a surface can touch of which parts lie as near as the near plane.
+static PixelBox pixels_if_cut(__constant Frame *frame, const Hull *hull, float farthest) {
+    const uint zero = frame->zero;
+    const Net *part = &hull->part;
+    const float at_near = recip(frame->near), at_far = recip(max(add(farthest, hull->slack), frame->near));
+    const Seen seen = {
+        reach_if_cut(frame, fold_min(part->x), fold_max(part->x), at_near, at_far),
+        reach_if_cut(frame, neg(fold_max(part->y)), neg(fold_min(part->y)), at_near, at_far),
+        margin(frame, add(hull->slack, hull->spread), frame->near)};
+    return box_around(frame, seen);
+}
+
+// The verdict on a surface inside a hull that crosses the near plane, or does not.
+static Verdict judge_seen(__constant Frame *frame, Hull *hull, Surface surface, Strays strays, bool crosses) {
+    const uint zero = frame->zero;
+    const float nearest = nearest_of(zero, hull), farthest = farthest_of(zero, hull);
+    Net points;
+    Lengths lengths;
+    PixelBox pixels = whole_image(frame);
+    measured(frame, &hull->part, &points);
+    if (!crosses && !(strays.are_some && min(nearest, strays.nearest) < frame->near)) {
+        pixels = box_around(frame, with_strays(seen_of(frame, hull, nearest, &points), strays));
     }
-    hull->slack = mul(reach, ROUNDING);
-    restricted(zero, whole, surface, &hull->part);
-    if (is_gregory) {
-        copy_net(&hull->part, &hull->follower);
-        follow(zero, faces, &hull->follower, surface, (frame->flags & FLAG_WEBER) != 0u);
-    }
-}
-
-static float nearest_of(uint zero, const Hull *hull) {
-    return sub(neg(fold_max(hull->part.z)), hull->spread);
-}
-
-static void see(__constant Frame *frame, const Hull *hull, float nearest, Seen *seen) {
-    const uint zero = frame->zero;
-    on_screen(frame, &hull->part, seen->x, seen->y);
-    const float scale = recip(nearest);
-    const float off_axis = max(largest_of(seen->x), largest_of(seen->y));
-    const float wobble = mul(mul(add(frame->focal, off_axis), hull->spread), scale);
-    seen->margin = add(add(1.0f, mul(mul(frame->focal, hull->slack), scale)), wobble);
-}
-
-static PixelBox seen_pixels(__constant Frame *frame, const Seen *seen) {
-    const uint zero = frame->zero;
-    return box_around(frame, seen->x, seen->y, add(seen->margin, mul(frame->bound, SEAM_ALLOWANCE)));
-}
-
-// The verdict on a surface that reaches before the near plane.
-static Verdict bound_near(__constant Frame *frame, const Hull *hull, Surface surface) {
-    const uint zero = frame->zero;
-    if (beside_the_view(frame, &hull->part, add(hull->slack, hull->spread))) {
+    if (!crosses && is_empty(pixels)) {
         return new_verdict(CULL, (PixelBox)(0));
     }
-    const float2 spans = depth_spans(zero, hull->part.z);
-    const uint code = refine(frame, surface, spans.x, spans.y, false, false);
-    return new_verdict(code, (PixelBox)(0, (int)frame->width, 0, (int)frame->height));
+    lengths_of(frame, hull, surface, &points, &lengths);
+    if (!crosses) {
+        return by_length(frame, surface, &lengths, pixels);
+    }
+    if (!strays.are_some) {
+        pixels = pixels_if_cut(frame, hull, farthest);
+    }
+    const uint code = code_if_cut(frame, surface, &hull->part, &points);
+    return with_sides(frame, surface, &lengths, new_verdict(code, pixels));
 }
 
-// The verdict on a surface that lies beyond the near plane.
-static Verdict bound_far(__constant Frame *frame, const Hull *hull, bool is_gregory, Surface surface,
-                         float nearest) {
+static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
     const uint zero = frame->zero;
-    Seen seen;
-    see(frame, hull, nearest, &seen);
-    if (is_empty(box_around(frame, seen.x, seen.y, seen.margin))) {
+    if (frame->flags & FLAG_WHOLE) {
+        Net points;
+        Lengths lengths;
+        measured(frame, &hull->part, &points);
+        lengths_of(frame, hull, surface, &points, &lengths);
+        return by_length(frame, surface, &lengths, whole_image(frame));
+    }
+    const float nearest = nearest_of(zero, hull), farthest = farthest_of(zero, hull);
+    const Strays strays = strays_of(frame, hull, surface);
+    const float end = strays.are_some ? max(farthest, strays.farthest) : farthest;
+    const bool crosses = nearest < frame->near && add(farthest, hull->slack) >= frame->near;
+    const bool is_beside = crosses && !strays.are_some
+        && beside_the_view(frame, &hull->part, add(hull->slack, hull->spread));
+    if (add(end, hull->slack) < frame->near || is_beside) {
         return new_verdict(CULL, (PixelBox)(0));
     }
-    const PixelBox pixels = seen_pixels(frame, &seen);
-    if (is_gregory) {
-        on_screen(frame, &hull->follower, seen.x, seen.y);
-    }
-    const float u = length_u(zero, seen.x, seen.y), v = length_v(zero, seen.x, seen.y);
-    if (max(u, v) <= frame->bound) {
-        return new_verdict(DRAW, pixels);
-    }
-    return new_verdict(refine(frame, surface, u, v, u > frame->bound, v > frame->bound), pixels);
-}
-
-static Verdict judge(__constant Frame *frame, const Hull *hull, bool is_gregory, Surface surface) {
-    const uint zero = frame->zero;
-    const float nearest = nearest_of(zero, hull);
-    const float farthest = add(neg(fold_min(hull->part.z)), hull->spread);
-    if (add(farthest, hull->slack) < frame->near) {
-        return new_verdict(CULL, (PixelBox)(0));
-    }
-    if (nearest < frame->near) {
-        return bound_near(frame, hull, surface);
-    }
-    return bound_far(frame, hull, is_gregory, surface, nearest);
+    return judge_seen(frame, hull, surface, strays, crosses);
 }
 
 // The pixels that drawing the surface inside a hull can touch.
 static PixelBox pixels_of(__constant Frame *frame, const Hull *hull) {
     const float nearest = nearest_of(frame->zero, hull);
     if (nearest < frame->near) {
-        return (PixelBox)(0, (int)frame->width, 0, (int)frame->height);
+        return whole_image(frame);
     }
-    Seen seen;
-    see(frame, hull, nearest, &seen);
-    return seen_pixels(frame, &seen);
+    Net points;
+    measured(frame, &hull->part, &points);
+    return box_around(frame, seen_of(frame, hull, nearest, &points));
 }
 
 // The verdict by the rules of Weber's program.
-static Verdict bound_weber(__constant Frame *frame, Net *net, const Faces *faces, bool is_gregory,
-                           Surface surface) {
-    const uint code = weber_code(frame, net, faces, is_gregory, surface);
-    if (code != DRAW) {
-        return new_verdict(code, (PixelBox)(0));
+static Verdict bound_weber(__constant Frame *frame, Hull *hull, Surface surface) {
+    const uint code = weber_code(frame, &hull->whole, &hull->faces, hull->is_gregory, surface);
+    const Side live = {0u, 0u};
+    const Side sides[4] = {live, live, live, live};
+    PixelBox pixels = (PixelBox)(0);
+    if (code == DRAW) {
+        put_part(frame, surface, hull);
+        pixels = pixels_of(frame, hull);
     }
-    Hull hull;
-    hull_of(frame, net, faces, is_gregory, surface, &hull);
-    return new_verdict(code, pixels_of(frame, &hull));
+    return with_packed(new_verdict(code, pixels), sides, (uint2)(frame->rate));
 }
 
 // The verdict on one surface of any patch, by the rules of the frame's profile.
 static Verdict bound_any(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
                          Surface surface) {
-    const uint zero = frame->zero;
-    __global const Patch *patch = patches + surface.patch_id;
-    __global const Object *object = objects + patch->object;
-    const bool is_gregory = patch->faces != 0u;
-    Net net;
-    Faces faces;
-    in_eye_space(zero, patch, object, &net);
-    if (is_gregory) {
-        faces_in_eye_space(zero, patches + patch->faces, object, &faces);
-    }
-    if (frame->flags & FLAG_WEBER) {
-        return bound_weber(frame, &net, &faces, is_gregory, surface);
-    }
     Hull hull;
-    hull_of(frame, &net, &faces, is_gregory, surface, &hull);
-    return judge(frame, &hull, is_gregory, surface);
+    put_patch(frame->zero, objects, patches, surface, &hull);
+    if (frame->flags & FLAG_WEBER) {
+        return bound_weber(frame, &hull, surface);
+    }
+    put_part(frame, surface, &hull);
+    return judge(frame, &hull, surface);
 }
 
 __kernel void stage_bound(__constant Frame *frame, __global const Object *objects,

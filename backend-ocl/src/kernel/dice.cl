@@ -5,15 +5,11 @@
 // address a constant in them, PoCL 3.1 loses it.
 #define INLINED static __attribute__((always_inline))
 
-// How one border of a grid is closed; the ends of `chord` count only where `has_chord` is not 0.
-typedef struct {
-    uint longest;
-    uint has_chord;
-    float3 chord[2];
-} Seam;
-
 // What all vertices of a grid share, and what is found out about them all.
 typedef struct {
+    // Parameters of columns and rows, where the grid is regular.
+    uint column_u[SIDE];
+    uint row_v[SIDE];
     // Weights of each column: four of the position, three of the derivative.
     float4 column_cubic[SIDE];
     float3 column_slope[SIDE];
@@ -28,10 +24,9 @@ typedef struct {
     uint is_gregory;
     // Tangents no longer than this have vanished.
     float flat_length;
-    Seam seams[4];
-    // The box around all vertices and ends of chords.
+    // The box around all vertices.
     Extents extents;
-    // Not 0 if a vertex or an end must be clipped.
+    // Not 0 if a vertex must be clipped.
     uint must_clip;
     // Not 0 if a micropolygon may face the eye.
     uint faces_eye;
@@ -67,7 +62,7 @@ static float4 curve_across(uint zero, __local const float *c, float3 weights) {
                     blend3(zero, weights, along(zero, vload4(3, c))));
 }
 
-static IsoCurve iso_curve(uint zero, __local const float *net, uint v) {
+INLINED IsoCurve iso_curve(uint zero, __local const float *net, uint v) {
     const float t = param(zero, v);
     const float4 cubic_v = cubic(zero, t);
     const float3 slope_v = cubic_slope(zero, t);
@@ -93,13 +88,6 @@ static float3 blend_along(uint zero, const IsoCurve *curve, float3 slope) {
 static float3 blend_across(uint zero, const IsoCurve *curve, float4 weights) {
     return (float3)(blend4(zero, weights, curve->across[0]), blend4(zero, weights, curve->across[1]),
                     blend4(zero, weights, curve->across[2]));
-}
-
-INLINED float3 position_at(uint zero, __local const float *net, uint u, uint v) {
-    const float4 row = cubic(zero, param(zero, v)), weights = cubic(zero, param(zero, u));
-    return (float3)(blend4(zero, weights, curve_point(zero, coordinate(net, 0u), row)),
-                    blend4(zero, weights, curve_point(zero, coordinate(net, 1u), row)),
-                    blend4(zero, weights, curve_point(zero, coordinate(net, 2u), row)));
 }
 
 // Side `k` of the box around the control points.
@@ -148,21 +136,28 @@ static float size(uint zero, __local const float *net) {
     return max(max(side(zero, net, 0u), side(zero, net, 1u)), side(zero, net, 2u));
 }
 
+static void prepare_column(uint zero, Draw draw, __local Grid *grid, uint column) {
+    const uint u = column_at(draw, column);
+    const float t = param(zero, u);
+    grid->column_u[column] = u;
+    grid->column_cubic[column] = cubic(zero, t);
+    grid->column_slope[column] = cubic_slope(zero, t);
+}
+
 // The curve in row `row`, one coordinate.
-static void prepare_row(__constant Frame *frame, Surface surface, __local Grid *grid, uint task) {
-    const uint zero = frame->zero;
-    const uint row = task / 3u;
-    const float t = param(zero, surface.v + row * (v_size(surface) >> rate_bits(frame)));
+static void prepare_row(uint zero, __local Grid *grid, uint task) {
+    const float t = param(zero, grid->row_v[task / 3u]);
     __local const float *c = coordinate(grid->net, task % 3u);
     grid->row_point[task] = curve_point(zero, c, cubic(zero, t));
     grid->row_across[task] = curve_across(zero, c, cubic_slope(zero, t));
 }
 
-static void prepare_column(__constant Frame *frame, Surface surface, __local Grid *grid, uint column) {
-    const uint zero = frame->zero;
-    const float t = param(zero, surface.u + column * (u_size(surface) >> rate_bits(frame)));
-    grid->column_cubic[column] = cubic(zero, t);
-    grid->column_slope[column] = cubic_slope(zero, t);
+// u and v of a vertex: on a border, one of the border's own.
+static uint2 vertex_of(Draw draw, __local const Grid *grid, uint row, uint column) {
+    const uint any = draw.borders[0] | draw.borders[1] | draw.borders[2] | draw.borders[3];
+    const bool inside = row > 0u && row < rate_v(draw) && column > 0u && column < rate_u(draw);
+    return inside || any == 0u ? (uint2)(grid->column_u[column], grid->row_v[row])
+                               : vertex_on_border(draw, row, column);
 }
 
 static IsoCurve grid_curve(__local const Grid *grid, uint row) {
@@ -174,10 +169,9 @@ static IsoCurve grid_curve(__local const Grid *grid, uint row) {
     return curve;
 }
 
-// Position of one vertex, and the derivatives there along u and along v.
-static void evaluate(__constant Frame *frame, __local const Grid *grid, uint row, uint column, float3 *position,
-                     float3 *du, float3 *dv) {
-    const uint zero = frame->zero;
+// Position of a vertex where the grid is regular, and the derivatives there along u and along v.
+static void evaluate(uint zero, __local const Grid *grid, uint row, uint column, float3 *position, float3 *du,
+                     float3 *dv) {
     const IsoCurve curve = grid_curve(grid, row);
     const float4 weights = grid->column_cubic[column];
     *position = blend_point(zero, &curve, weights);
@@ -185,15 +179,18 @@ static void evaluate(__constant Frame *frame, __local const Grid *grid, uint row
     *dv = blend_across(zero, &curve, weights);
 }
 
+// The same of a vertex that has an iso-curve of its own.
+static void evaluate_moved(uint zero, __local const Grid *grid, uint2 at, float3 *position, float3 *du, float3 *dv) {
+    const IsoCurve curve = iso_curve(zero, grid->net, at.y);
+    const float t = param(zero, at.x);
+    const float4 weights = cubic(zero, t);
+    *position = blend_point(zero, &curve, weights);
+    *du = blend_along(zero, &curve, cubic_slope(zero, t));
+    *dv = blend_across(zero, &curve, weights);
+}
+
 // Unit normal of one vertex.
-static float3 normal_from(__constant Frame *frame, Surface surface, __local const Grid *grid, uint row, uint column,
-                          float3 du, float3 dv) {
-    const uint zero = frame->zero;
+static float3 normal_from(uint zero, __local const Grid *grid, uint2 at, float3 du, float3 dv) {
     const float3 normal = unit_normal(zero, du, dv, grid->flat_length);
-    if (largest3(normal) < 0.5f) {
-        const uint u = surface.u + column * (u_size(surface) >> rate_bits(frame));
-        const uint v = surface.v + row * (v_size(surface) >> rate_bits(frame));
-        return normal_nearby(zero, grid->net, u, v, grid->flat_length);
-    }
-    return normal;
+    return largest3(normal) < 0.5f ? normal_nearby(zero, grid->net, at.x, at.y, grid->flat_length) : normal;
 }

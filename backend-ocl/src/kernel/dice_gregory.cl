@@ -6,10 +6,6 @@ static float change(uint zero, float4 along, float4 moved) {
     return add(add(first, mul(along.z, moved.z)), mul(along.w, moved.w));
 }
 
-static float3 blend_here(__constant Frame *frame, uint m, float u, float v) {
-    return frame->flags & FLAG_WEBER ? weber_blend_at(frame->zero, m, u, v) : blend_at(frame->zero, m, u, v);
-}
-
 static float4 add4(uint zero, float4 a, float4 b) {
     return (float4)(add(a.x, b.x), add(a.y, b.y), add(a.z, b.z), add(a.w, b.w));
 }
@@ -56,10 +52,10 @@ static float3 gregory_coordinate(uint zero, __local const float *c, __local cons
 }
 
 // Position at a parameter, and the derivatives there along u and along v.
-INLINED void evaluate_gregory(__constant Frame *frame, __local const Grid *grid, uint2 place, float3 *position,
-                              float3 *du, float3 *dv) {
+static void evaluate_gregory(__constant Frame *frame, __local const Grid *grid, uint2 at, float3 *position,
+                             float3 *du, float3 *dv) {
     const uint zero = frame->zero;
-    const float u = param(zero, place.x), v = param(zero, place.y);
+    const float u = param(zero, at.x), v = param(zero, at.y);
     const float3 a = blend_here(frame, 0u, u, v), b = blend_here(frame, 1u, u, v);
     const float3 c = blend_here(frame, 2u, u, v), d = blend_here(frame, 3u, u, v);
     const float4 share = (float4)(a.x, b.x, c.x, d.x);
@@ -74,23 +70,14 @@ INLINED void evaluate_gregory(__constant Frame *frame, __local const Grid *grid,
     *dv = (float3)(x.z, y.z, z.z);
 }
 
-INLINED float3 position_any(__constant Frame *frame, __local const Grid *grid, uint2 place) {
-    if (!grid->is_gregory) {
-        return position_at(frame->zero, grid->net, place.x, place.y);
-    }
-    float3 position, du, dv;
-    evaluate_gregory(frame, grid, place, &position, &du, &dv);
-    return position;
-}
-
 // Position of one vertex of a grid, and the derivatives there.
-static void evaluate_any(__constant Frame *frame, Surface surface, __local const Grid *grid, uint row, uint column,
+static void evaluate_any(__constant Frame *frame, __local const Grid *grid, uint2 at, uint row, uint column,
                          float3 *position, float3 *du, float3 *dv) {
     if (grid->is_gregory) {
-        const uint u = surface.u + column * (u_size(surface) >> rate_bits(frame));
-        const uint v = surface.v + row * (v_size(surface) >> rate_bits(frame));
-        evaluate_gregory(frame, grid, (uint2)(u, v), position, du, dv);
+        evaluate_gregory(frame, grid, at, position, du, dv);
+    } else if (at.x != grid->column_u[column] || at.y != grid->row_v[row]) {
+        evaluate_moved(frame->zero, grid, at, position, du, dv);
     } else {
-        evaluate(frame, grid, row, column, position, du, dv);
+        evaluate(frame->zero, grid, row, column, position, du, dv);
     }
 }

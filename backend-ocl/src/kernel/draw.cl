@@ -18,10 +18,9 @@ static void measure(__local Grid *grid, Vertex vertex) {
     }
 }
 
-// What all vertices share: the net, then the rows' curves, the columns' weights and the seams.
-static void prepare(__constant Frame *frame, __global const Object *object, __global const Patch *patch,
-                    __global const Patch *record, Surface surface, __local Grid *grid, uint lane) {
-    const uint zero = frame->zero;
+// What all vertices share: the net, the columns' weights, then the rows' curves.
+static void prepare(uint zero, __global const Object *object, __global const Patch *patch,
+                    __global const Patch *record, Draw draw, __local Grid *grid, uint lane) {
     if (lane < 48u) {
         grid->net[lane] = transformed(zero, patch, object->to_eye + lane / 16u * 4u, lane % 16u);
     }
@@ -32,40 +31,31 @@ static void prepare(__constant Frame *frame, __global const Object *object, __gl
         clear_measures(grid);
         grid->is_gregory = patch->faces != 0u;
     }
-    for (uint column = lane; column <= frame->rate; column += GROUP) {
-        prepare_column(frame, surface, grid, column);
+    for (uint column = lane; column <= rate_u(draw); column += GROUP) {
+        prepare_column(zero, draw, grid, column);
+    }
+    for (uint row = GROUP - 1u - lane; row <= rate_v(draw); row += GROUP) {
+        grid->row_v[row] = row_at(draw, row);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint task = lane; task < 3u * (frame->rate + 1u); task += GROUP) {
-        prepare_row(frame, surface, grid, task);
+    for (uint task = lane; task < 3u * (rate_v(draw) + 1u); task += GROUP) {
+        prepare_row(zero, grid, task);
     }
-    if (lane >= GROUP - 4u) {
-        const uint border = lane + 4u - GROUP;
-        put_seam(frame, grid, surface, border);
-    }
-    if (lane == GROUP - 5u) {
+    if (lane == GROUP - 1u) {
         grid->flat_length = mul(size(zero, grid->net), FLAT);
     }
 }
 
-// The ends of the chords beyond the borders; where there is none, nothing reads them.
-static void put_ends(__constant Frame *frame, __local Grid *grid, __global uint *grids, uint base, uint lane) {
-    if (lane < ENDS && grid->seams[lane / 2u].has_chord != 0u) {
-        const Vertex end = project(frame, grid->seams[lane / 2u].chord[lane % 2u]);
-        put_screen(frame, grids, base, vertices(frame) + lane, end);
-        measure(grid, end);
-    }
-}
-
 // Vertices and their colours.
-static void dice_and_shade(__constant Frame *frame, __global const Object *object, Surface surface,
-                           __local Grid *grid, __global uint *grids, uint base, uint lane) {
-    const uint stride = frame->rate + 1u;
-    for (uint at = lane; at < vertices(frame); at += GROUP) {
+static void dice_and_shade(__constant Frame *frame, __global const Object *object, Draw draw, __local Grid *grid,
+                           __global uint *grids, uint base, uint lane) {
+    const uint stride = rate_u(draw) + 1u, count = stride * (rate_v(draw) + 1u);
+    for (uint at = lane; at < count; at += GROUP) {
         const uint row = at / stride, column = at % stride;
+        const uint2 parameters = vertex_of(draw, grid, row, column);
         float3 position, du, dv;
-        evaluate_any(frame, surface, grid, row, column, &position, &du, &dv);
-        const float3 normal = normal_from(frame, surface, grid, row, column, du, dv);
+        evaluate_any(frame, grid, parameters, row, column, &position, &du, &dv);
+        const float3 normal = normal_from(frame->zero, grid, parameters, du, dv);
         const Vertex vertex = project(frame, position);
         measure(grid, vertex);
         put_screen(frame, grids, base, at, vertex);
@@ -75,8 +65,7 @@ static void dice_and_shade(__constant Frame *frame, __global const Object *objec
 }
 
 // May the micropolygon be seen from the front? See `faces_away` in core.
-static bool may_face_eye(__constant Frame *frame, __global const uint *grids, uint base, uint row, uint column) {
-    const uint at = row * (frame->rate + 1u) + column, below = at + frame->rate + 1u;
+static bool may_face_eye(__constant Frame *frame, __global const uint *grids, uint base, uint at, uint below) {
     const Vertex a = vertex_at(frame, grids, base, at), b = vertex_at(frame, grids, base, at + 1u);
     const Vertex c = vertex_at(frame, grids, base, below + 1u), d = vertex_at(frame, grids, base, below);
     const bool whole = a.w > 0.0f && b.w > 0.0f && c.w > 0.0f && d.w > 0.0f;
@@ -84,11 +73,13 @@ static bool may_face_eye(__constant Frame *frame, __global const uint *grids, ui
 }
 
 // Finds out whether a micropolygon may face the eye, if that matters.
-static void seek_faces(__constant Frame *frame, __local Grid *grid, __global const uint *grids, uint base,
-                       uint lane) {
-    const uint count = frame->flags & FLAG_CULL_BACKFACES ? frame->rate * frame->rate : 0u;
+static void seek_faces(__constant Frame *frame, Draw draw, __local Grid *grid, __global const uint *grids,
+                       uint base, uint lane) {
+    const uint rate = rate_u(draw), stride = rate + 1u;
+    const uint count = frame->flags & FLAG_CULL_BACKFACES ? rate * rate_v(draw) : 0u;
     for (uint index = lane; index < count; index += GROUP) {
-        if (may_face_eye(frame, grids, base, index >> rate_bits(frame), index & (frame->rate - 1u))) {
+        const uint at = index / rate * stride + index % rate;
+        if (may_face_eye(frame, grids, base, at, at + stride)) {
             grid->faces_eye = 1u; // whoever writes, it is the same
         }
     }
@@ -116,15 +107,8 @@ static void put_flags(__constant Frame *frame, Draw draw, __local const Grid *gr
     const uint found = kind_of(frame, grid);
     const Extents extents = grid->extents;
     const bool is_near = found == KIND_NEAR;
-    uint flags = found;
-    for (uint border = 0u; border < 4u; border++) {
-        const uint height = 31u - clz(grid->seams[border].longest);
-        const uint longest = height < SEAM_LONGEST ? height : SEAM_LONGEST;
-        const uint bits = longest | (grid->seams[border].has_chord != 0u ? SEAM_CHORD : 0u);
-        flags |= bits << (SEAM_SHIFT + SEAM_BITS * border);
-    }
     const uint place = flags_place(index);
-    grids[place] = flags;
+    grids[place] = found | draw.shape >> RATE_U_SHIFT << RATES_SHIFT;
     grids[place + 1u] = is_near ? packed(extents.low_x, extents.high_x, frame->width) : draw.columns;
     grids[place + 2u] = is_near ? packed(extents.low_y, extents.high_y, frame->height) : draw.rows;
     if (found != KIND_HIDDEN) {
@@ -140,19 +124,17 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     const bool is_one = index < grids[HEAD_COUNT];
     // Where there is no draw, the address of one all the same: compilers may load first and branch later.
     const Draw draw = draws[is_one ? grids[HEAD_START] + index : 0u];
-    const Surface surface = surface_of(draw);
-    __global const Patch *patch = patches + surface.patch_id;
+    __global const Patch *patch = patches + draw.patch_id;
     __global const Object *object = objects + patch->object;
     const uint base = grid_base(frame, index);
     if (!is_one) {
         return;
     }
-    prepare(frame, object, patch, patches + patch->faces, surface, &grid, lane);
+    prepare(frame->zero, object, patch, patches + patch->faces, draw, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    dice_and_shade(frame, object, surface, &grid, grids, base, lane);
-    put_ends(frame, &grid, grids, base, lane);
+    dice_and_shade(frame, object, draw, &grid, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-    seek_faces(frame, &grid, grids, base, lane);
+    seek_faces(frame, draw, &grid, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
         put_flags(frame, draw, &grid, grids, index);

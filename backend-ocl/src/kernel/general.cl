@@ -37,17 +37,17 @@ static void clipped(Sampler *s, float3 a, float3 b, float3 c, uint key) {
     }
 }
 
-static void sample_general(Sampler *s, uint base, Item item, uint key) {
-    const Vertex a = vertex_at(s->frame, s->grids, base, item.a);
-    const Vertex b = vertex_at(s->frame, s->grids, base, item.b);
-    const Vertex c = vertex_at(s->frame, s->grids, base, item.c);
-    const Vertex d = vertex_at(s->frame, s->grids, base, item.d);
+static void sample_general(Sampler *s, uint base, Quad quad, uint key) {
+    const Vertex a = vertex_at(s->frame, s->grids, base, quad.a);
+    const Vertex b = vertex_at(s->frame, s->grids, base, quad.b);
+    const Vertex c = vertex_at(s->frame, s->grids, base, quad.c);
+    const Vertex d = vertex_at(s->frame, s->grids, base, quad.d);
     if (a.w > 0.0f && b.w > 0.0f && c.w > 0.0f && d.w > 0.0f) {
         micropolygon(s, a, b, c, d, key);
-    } else if (item.is_quad) {
-        const float3 from_a = space_at(s->frame, s->grids, base, item.a, 0u);
-        const float3 to_c = space_at(s->frame, s->grids, base, item.c, 0u);
-        clipped(s, from_a, space_at(s->frame, s->grids, base, item.b, 0u), to_c, key);
-        clipped(s, from_a, to_c, space_at(s->frame, s->grids, base, item.d, 0u), key);
+    } else {
+        const float3 from_a = space_at(s->frame, s->grids, base, quad.a, 0u);
+        const float3 to_c = space_at(s->frame, s->grids, base, quad.c, 0u);
+        clipped(s, from_a, space_at(s->frame, s->grids, base, quad.b, 0u), to_c, key);
+        clipped(s, from_a, to_c, space_at(s->frame, s->grids, base, quad.d, 0u), key);
     }
 }

@@ -2,9 +2,9 @@
 // once (`draw.cl`) and those that sample them tile by tile (`tiles.cl`).
 //
 // One buffer of words: the head, a box for every BLOCK of draws, the flags and the box of every draw, then a grid
-// a draw. A grid is column, row and 1 / distance of all its vertices, of which the last eight are the ends of its
-// seams' chords, then position and colour of all but those, a coordinate after the other. A box is the pixels
-// that can be touched, columns and rows, packed as those of a draw.
+// a draw, each with room for the largest. A grid is column, row and 1 / distance of its vertices, row after row, then
+// position and colour, a coordinate after the other. A box is the pixels that can be touched, columns and rows,
+// packed as those of a draw.
 
 // Draws a chunk, and draws that share a box.
 #define CHUNK 2048u
@@ -21,30 +21,27 @@
 #define KIND_NEAR 1u
 #define KIND_GENERAL 2u
 #define KIND_MASK 3u
-// Above them, for each border, log2 of the longest chord of a neighbour (3 bits) and is there one beyond (1 bit).
-#define SEAM_SHIFT 4u
-#define SEAM_BITS 4u
-#define SEAM_CHORD 8u
-#define SEAM_LONGEST 7u
+// Above them, micropolygons along u and along v, as in the shape of a draw.
+#define RATES_SHIFT 2u
 
 #define BOXES 4u
 #define FLAGS (BOXES + 2u * BLOCKS)
 // Words a draw from there on: flags, columns, rows.
 #define FLAGS_WORDS 3u
 #define GRIDS (FLAGS + FLAGS_WORDS * CHUNK)
-// Ends of the chords beyond the four borders.
-#define ENDS 8u
 
 // Pixels a side of the tile that one group samples.
 #define TILE 16u
 
-// The dice rate is a power of two: this is its exponent.
-static uint rate_bits(__constant Frame *frame) {
-    return 31u - clz(frame->rate);
-}
-
+// Vertices of the largest grid.
 static uint vertices(__constant Frame *frame) {
     return (frame->rate + 1u) * (frame->rate + 1u);
+}
+
+// Micropolygons along u and along v of a grid with these flags.
+static uint2 rates_in(uint flags) {
+    return (uint2)((flags >> RATES_SHIFT) & FIVE_BITS,
+                   (flags >> (RATES_SHIFT + RATE_V_SHIFT - RATE_U_SHIFT)) & FIVE_BITS);
 }
 
 // Place of the flags of draw `index` of the chunk; its box follows.
@@ -54,17 +51,17 @@ static uint flags_place(uint index) {
 
 // First word of the grid of draw `index` of the chunk.
 static uint grid_base(__constant Frame *frame, uint index) {
-    return GRIDS + index * (3u * (vertices(frame) + ENDS) + 6u * vertices(frame));
+    return GRIDS + 9u * index * vertices(frame);
 }
 
 // First word of screen coordinate k (column, row, 1 / distance) of a grid.
 static uint screen_base(__constant Frame *frame, uint base, uint k) {
-    return base + k * (vertices(frame) + ENDS);
+    return base + k * vertices(frame);
 }
 
 // First word of number k (position x, y, z, colour red, green, blue) of a grid.
 static uint space_base(__constant Frame *frame, uint base, uint k) {
-    return screen_base(frame, base, 3u) + k * vertices(frame);
+    return screen_base(frame, base, 3u + k);
 }
 
 static Vertex vertex_at(__constant Frame *frame, __global const uint *grids, uint base, uint at) {

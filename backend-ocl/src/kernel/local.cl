@@ -1,19 +1,24 @@
 // Mirrors core/src/kernel/local.rs: a group works on a stack of its own, in local memory. It is a work-group; each
 // of its work-items has a surface of the batch.
 
-// A group's own memory. Surfaces are plain numbers, in the order of their fields.
+// A group's own memory. Surfaces are plain numbers, in the order of their fields, and apart from their borders.
 typedef struct {
     uint4 stack[LOCAL_STACK];
+    uint4 borders[LOCAL_STACK];
     Counts counts[GROUP];
     uint base;
 } LocalMemory;
 
-static uint4 numbers_of(Surface surface) {
-    return (uint4)(surface.patch_id, surface.u, surface.v, surface.shape);
+static void put_surface(__local LocalMemory *memory, uint entry, Surface surface) {
+    memory->stack[entry] = (uint4)(surface.patch_id, surface.u, surface.v, surface.shape);
+    memory->borders[entry] =
+        (uint4)(surface.borders[0], surface.borders[1], surface.borders[2], surface.borders[3]);
 }
 
-static Surface surface_from(uint4 numbers) {
-    const Surface surface = {numbers.x, numbers.y, numbers.z, numbers.w};
+static Surface surface_at(__local const LocalMemory *memory, uint entry) {
+    const uint4 numbers = memory->stack[entry], borders = memory->borders[entry];
+    const Surface surface = {numbers.x, numbers.y, numbers.z, numbers.w,
+                             {borders.x, borders.y, borders.z, borders.w}};
     return surface;
 }
 
@@ -25,20 +30,20 @@ static uint next_base(__local LocalMemory *memory, uint count, uint levels, uint
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (!is_safe(count, count - first, levels, capacity) && entry < count) {
-        atomic_max(&memory->base, lowest(entry, level(surface_from(memory->stack[entry])), levels, capacity));
+        atomic_max(&memory->base, lowest(entry, level(surface_at(memory, entry)), levels, capacity));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     return memory->base;
 }
 
 // Carries out the verdict on a surface, after those `before` it; `split` for a stack in local memory.
-static void split_local(__local uint4 *stack, __global Draw *draws, Control control, Surface surface,
+static void split_local(__local LocalMemory *memory, __global Draw *draws, Control control, Surface surface,
                         Verdict verdict, Counts before) {
-    const Counts own = counted(verdict.code);
+    const Counts own = counted(verdict);
     if (own.x != 0u) {
-        const Halves halves = halves_of(surface, verdict.code);
-        stack[control.base + 2u * before.x] = numbers_of(halves.low);
-        stack[control.base + 2u * before.x + 1u] = numbers_of(halves.high);
+        const Halves halves = halves_of(surface, verdict);
+        put_surface(memory, control.base + 2u * before.x, halves.low);
+        put_surface(memory, control.base + 2u * before.x + 1u, halves.high);
     } else if (own.y != 0u) {
         draws[control.waiting + before.y] = new_draw(surface, verdict);
     }
@@ -50,6 +55,7 @@ static void report(__global Group *group, Control control) {
     group->processed = control.processed;
     group->culled = control.culled;
     group->limited = control.limited;
+    group->micropolygons = control.micropolygons;
     group->peak = control.peak;
     group->load += control.processed;
 }
@@ -65,27 +71,27 @@ void stage_local(__constant Frame *frame, __global const Object *objects, __glob
     control.stack = held;
     control.peak = held;
     for (uint entry = lane; entry < held; entry += GROUP) {
-        memory.stack[entry] = numbers_of(dealt[index * room + entry]);
+        put_surface(&memory, entry, dealt[index * room + entry]);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint batch = 0u; batch < batches && control.stack > 0u; batch++) {
         control = take(control, next_base(&memory, control.stack, frame->levels, room, lane), 0u);
         const bool is_one = lane < control.taken;
         // Where there is no surface, one all the same: compilers may load first and branch later.
-        const Surface surface = surface_from(memory.stack[control.base + (is_one ? lane : 0u)]);
-        Verdict verdict = {CULL, 0u, 0u};
+        const Surface surface = surface_at(&memory, control.base + (is_one ? lane : 0u));
+        Verdict verdict = {CULL, 0u, 0u, 0u, 0u};
         if (is_one) {
             verdict = bound_any(frame, objects, patches, surface);
         }
-        memory.counts[lane] = counted(verdict.code);
+        memory.counts[lane] = counted(verdict);
         barrier(CLK_LOCAL_MEM_FENCE);
         control = commit(control, sum(memory.counts, GROUP), room, LOCAL_DRAWS);
-        split_local(memory.stack, fresh + index * LOCAL_DRAWS, control, surface, verdict,
+        split_local(&memory, fresh + index * LOCAL_DRAWS, control, surface, verdict,
                     sum(memory.counts, lane));
         barrier(CLK_LOCAL_MEM_FENCE);
     }
     for (uint entry = lane; entry < control.stack; entry += GROUP) {
-        stack[index * room + entry] = surface_from(memory.stack[entry]);
+        stack[index * room + entry] = surface_at(&memory, entry);
     }
     if (lane == 0u) {
         report(groups + index, control);

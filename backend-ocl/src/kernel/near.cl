@@ -29,11 +29,11 @@ static float sample_quad(uint zero, Vertex va, Vertex vb, Vertex vc, Vertex vd, 
     return w;
 }
 
-static void sample_near(Sampler *s, uint base, Item item, uint key) {
-    const Vertex a = vertex_at(s->frame, s->grids, base, item.a);
-    const Vertex b = vertex_at(s->frame, s->grids, base, item.b);
-    const Vertex c = vertex_at(s->frame, s->grids, base, item.c);
-    const Vertex d = vertex_at(s->frame, s->grids, base, item.d);
+static void sample_near(Sampler *s, uint base, Quad quad, uint key) {
+    const Vertex a = vertex_at(s->frame, s->grids, base, quad.a);
+    const Vertex b = vertex_at(s->frame, s->grids, base, quad.b);
+    const Vertex c = vertex_at(s->frame, s->grids, base, quad.c);
+    const Vertex d = vertex_at(s->frame, s->grids, base, quad.d);
     const int4 pixels = pixels_of_quad(s->box, a, b, c, d);
     for (int y = pixels.z; y < pixels.w; y++) {
         for (int x = pixels.x; x < pixels.y; x++) {

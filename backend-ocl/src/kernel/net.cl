@@ -55,24 +55,19 @@ static float extent(const Net *net) {
     return fold_max(largest);
 }
 
-static float weighted4(uint zero, float4 w, float a, float b, float c, float d) {
-    const float low = add(mul(w.x, a), mul(w.y, b));
-    return add(low, add(mul(w.z, c), mul(w.w, d)));
-}
-
 static void combine_u(uint zero, const float *c, const float4 *weights, float *out) {
     for (uint k = 0u; k < 4u; k++) {
         for (uint j = 0u; j < 4u; j++) {
-            out[4u * k + j] = weighted4(zero, weights[k], c[j], c[4u + j], c[8u + j], c[12u + j]);
+            out[4u * k + j] = blend4(zero, weights[k], (float4)(c[j], c[4u + j], c[8u + j], c[12u + j]));
         }
     }
 }
 
 static void combine_v(uint zero, const float *c, const float4 *weights, float *out) {
     for (uint i = 0u; i < 4u; i++) {
-        const float *p = c + 4u * i;
+        const float4 p = vload4(i, c);
         for (uint l = 0u; l < 4u; l++) {
-            out[4u * i + l] = weighted4(zero, weights[l], p[0], p[1], p[2], p[3]);
+            out[4u * i + l] = blend4(zero, weights[l], p);
         }
     }
 }

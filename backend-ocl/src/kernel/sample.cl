@@ -39,6 +39,8 @@ typedef struct {
     uchar rank[LISTED];
     uchar patch_rank[LISTED];
     ushort order[LISTED];
+    // How many micropolygons come before each, and behind the last, how many there are.
+    ushort start[LISTED + 1u];
 } Tile;
 
 // What is being sampled, and where to.
@@ -66,23 +68,13 @@ static bool nearer(Sample new_sample, Sample old) {
     return new_sample.u != old.u ? new_sample.u < old.u : new_sample.v < old.v;
 }
 
-// One item of a grid: a quad, or a sliver of a seam as a quad whose last two corners are one.
+// The numbers of a quad's corners; see `grids.cl`.
 typedef struct {
-    // Numbers of its corners; see `grids.cl`.
     uint a;
     uint b;
     uint c;
     uint d;
-    uint cell;
-    bool is_quad;
-    // Is there such a sliver?
-    bool exists;
-} Item;
-
-// Number of items of a grid.
-static uint items(__constant Frame *frame) {
-    return frame->rate * (frame->rate + 4u);
-}
+} Quad;
 
 // Row and column of a vertex, or of the micropolygon that starts there.
 typedef struct {
@@ -103,62 +95,19 @@ static Place place_of(uint cell) {
     return new_place(cell >> CELL_SHIFT, cell & CELL_MASK);
 }
 
-static uint vertex_number(__constant Frame *frame, Place place) {
-    return place.row * (frame->rate + 1u) + place.column;
-}
-
-static Item quad_of(__constant Frame *frame, Place place) {
-    const uint a = vertex_number(frame, place), d = a + frame->rate + 1u;
-    const Item item = {a, a + 1u, d + 1u, d, cell_of(place), true, true};
-    return item;
-}
-
-// Step `t` of a border.
-static Place border_place(__constant Frame *frame, uint border, uint t) {
-    const uint fixed = border & 1u ? frame->rate : 0u;
-    return border < 2u ? new_place(t, fixed) : new_place(fixed, t);
-}
-
-static Item sliver(__constant Frame *frame, uint first, Place middle, uint last, bool exists) {
-    const uint most = frame->rate - 1u;
-    const Place beside = new_place(middle.column < most ? middle.column : most, middle.row < most ? middle.row : most);
-    const Item item = {first, vertex_number(frame, middle), last, last, cell_of(beside), false, exists};
-    return item;
-}
-
-// Sliver number `task` of 4 * rate: `rate` a border. Number 0 of a border is that of the chord beyond it;
-// the others are numbered as a heap is: one over the whole border, two over its halves, and so on.
-static Item sliver_of(__constant Frame *frame, uint flags, uint task) {
-    const uint border = task >> rate_bits(frame), number_on_border = task & (frame->rate - 1u);
-    const uint seam = flags >> (SEAM_SHIFT + SEAM_BITS * border);
-    const uint longest = seam & SEAM_LONGEST;
-    if (number_on_border == 0u) {
-        const uint end = vertices(frame) + 2u * border;
-        const bool exists = longest > 0u && (seam & SEAM_CHORD) != 0u;
-        return sliver(frame, end, border_place(frame, border, frame->rate), end + 1u, exists);
-    }
-    const uint height = 31u - clz(number_on_border);
-    const uint span = frame->rate >> height;
-    const uint start = (number_on_border - (1u << height)) * span;
-    const uint first = vertex_number(frame, border_place(frame, border, start));
-    const uint last = vertex_number(frame, border_place(frame, border, start + span));
-    return sliver(frame, first, border_place(frame, border, start + span / 2u), last, span <= 1u << longest);
-}
-
-static Item item_of(__constant Frame *frame, uint flags, uint task) {
-    const uint quads = frame->rate * frame->rate;
-    if (task < quads) {
-        return quad_of(frame, new_place(task & (frame->rate - 1u), task >> rate_bits(frame)));
-    }
-    return sliver_of(frame, flags, task - quads);
+// A micropolygon of a grid with so many along u.
+static Quad quad_of(uint rate, Place place) {
+    const uint a = place.row * (rate + 1u) + place.column, d = a + rate + 1u;
+    const Quad quad = {a, a + 1u, d + 1u, d};
+    return quad;
 }
 
 // The sample of the micropolygon `cell` at this depth.
-static Sample sample_of(__constant Frame *frame, Surface surface, uint cell, uint depth_bits) {
+static Sample sample_of(Surface surface, uint cell, uint depth_bits) {
     const Place place = place_of(cell);
     const Sample sample = {depth_bits, surface.patch_id,
-                           surface.u + place.column * (u_size(surface) >> rate_bits(frame)),
-                           surface.v + place.row * (v_size(surface) >> rate_bits(frame))};
+                           surface.u + place.column * (u_size(surface) >> MAX_RATE_BITS),
+                           surface.v + place.row * (v_size(surface) >> MAX_RATE_BITS)};
     return sample;
 }
 
@@ -170,7 +119,7 @@ static void compare(const Sampler *s, uint pixel, uint found, uint key) {
     }
     const uint slot = key >> CELL_BITS, cell = key & ((1u << CELL_BITS) - 1u);
     const Surface surface = surface_of(s->draws[tile->list[s->first + slot]]);
-    const Sample it = sample_of(s->frame, surface, cell, found);
+    const Sample it = sample_of(surface, cell, found);
     const uint patch_u = (uint)tile->patch_rank[slot] << PARAM_BITS | it.u;
     if (s->turn == 1u) {
         atomic_min(&tile->patch_u[pixel], patch_u);
@@ -200,9 +149,8 @@ static float mean4(uint zero, float a, float b, float c, float d) {
 }
 
 // Mean colour of the four vertices of a micropolygon.
-static Colour colour_of(__constant Frame *frame, __global const uint *grids, uint base, Place place) {
+static Colour colour_of(__constant Frame *frame, __global const uint *grids, uint base, Quad quad) {
     const uint zero = frame->zero;
-    const Item quad = quad_of(frame, place);
     const float3 a = space_at(frame, grids, base, quad.a, 3u);
     const float3 b = space_at(frame, grids, base, quad.b, 3u);
     const float3 c = space_at(frame, grids, base, quad.c, 3u);

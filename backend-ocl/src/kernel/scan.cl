@@ -1,17 +1,19 @@
 // Mirrors core/src/kernel/scan.rs: count, prefix sum, places. One work-group; each of its work-items counts
 // an unbroken run of the batch, so outputs keep their order.
 
-// Surfaces split, drawn, and drawn because they may not be split.
+// Surfaces split, drawn, and drawn because they may not be split; micropolygons of those that are drawn.
 typedef uint4 Counts;
 
-static Counts counted(uint code) {
-    const bool limited = code == DRAW_LIMITED;
-    const bool drawn = code == DRAW || limited;
-    return (Counts)(code != CULL && !drawn ? 1u : 0u, drawn ? 1u : 0u, limited ? 1u : 0u, 0u);
+static Counts counted(Verdict verdict) {
+    const bool limited = verdict.code == DRAW_LIMITED;
+    const bool drawn = verdict.code == DRAW || limited;
+    const uint2 rates = rates_of(verdict);
+    return (Counts)(verdict.code != CULL && !drawn ? 1u : 0u, drawn ? 1u : 0u, limited ? 1u : 0u,
+                    drawn ? rates.x * rates.y : 0u);
 }
 
 static Control commit(Control control, Counts all, uint stack_room, uint draw_room) {
-    const uint splits = all.x, draws = all.y, limited = all.z;
+    const uint splits = all.x, draws = all.y;
     const uint stack = control.base + 2u * splits;
     const uint excess_stack = saturating_sub(stack, stack_room);
     const uint excess_draws = saturating_sub(control.waiting + draws, draw_room);
@@ -21,7 +23,8 @@ static Control commit(Control control, Counts all, uint stack_room, uint draw_ro
     control.processed += control.taken;
     control.culled += control.taken - draws - splits;
     control.drawn += draws;
-    control.limited += limited;
+    control.limited += all.z;
+    control.micropolygons += all.w;
     control.overflow = excess_stack > excess_draws ? excess_stack : excess_draws;
     return control;
 }
@@ -39,7 +42,7 @@ static void scan(__global const Verdict *verdicts, __global Slot *slots, uint fr
     for (uint index = from; index < to; index++) {
         const Slot slot = {before.x, before.y};
         slots[index] = slot;
-        before += counted(verdicts[index].code);
+        before += counted(verdicts[index]);
     }
 }
 
@@ -52,7 +55,7 @@ void stage_scan(__global const Limits *limits, __global const Verdict *verdicts,
     const uint from = run_start(lane, taken), to = run_start(lane + 1u, taken);
     Counts own = (Counts)(0u);
     for (uint index = from; index < to; index++) {
-        own += counted(verdicts[index].code);
+        own += counted(verdicts[index]);
     }
     counts[lane] = own;
     barrier(CLK_LOCAL_MEM_FENCE);

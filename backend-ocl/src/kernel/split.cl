@@ -4,7 +4,7 @@ static void split(Control control, Surface surface, Verdict verdict, Slot slot, 
                   __global Draw *draws) {
     const uint place = control.base + 2u * slot.splits;
     if (verdict.code == SPLIT_U || verdict.code == SPLIT_V) {
-        const Halves halves = halves_of(surface, verdict.code);
+        const Halves halves = halves_of(surface, verdict);
         stack[place] = halves.low;
         stack[place + 1u] = halves.high;
     } else if (verdict.code != CULL) {

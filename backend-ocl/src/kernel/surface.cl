@@ -1,9 +1,10 @@
 // Mirrors core/src/surface.rs: a patch and a dyadic parameter range, all integers.
 #define LEVEL_MASK 31u
 #define V_LEVEL_SHIFT 5u
+#define LEVELS_MASK (LEVEL_MASK | LEVEL_MASK << V_LEVEL_SHIFT)
 
 static Surface root(uint patch_id) {
-    const Surface surface = {patch_id, 0u, 0u, 0u};
+    const Surface surface = {patch_id, 0u, 0u, 0u, {0u, 0u, 0u, 0u}};
     return surface;
 }
 
@@ -33,34 +34,24 @@ typedef struct {
     Surface high;
 } Halves;
 
+// The halves of the range of u, with borders that are not theirs yet.
 static Halves halves_u(Surface surface) {
-    const uint shape = surface.shape + 1u;
-    const Halves halves = {
-        {surface.patch_id, surface.u, surface.v, shape},
-        {surface.patch_id, surface.u + u_size(surface) / 2u, surface.v, shape},
-    };
+    surface.shape += 1u;
+    Halves halves = {surface, surface};
+    halves.high.u += u_size(surface);
     return halves;
 }
 
+// The halves of the range of v, with borders that are not theirs yet.
 static Halves halves_v(Surface surface) {
-    const uint shape = surface.shape + (1u << V_LEVEL_SHIFT);
-    const Halves halves = {
-        {surface.patch_id, surface.u, surface.v, shape},
-        {surface.patch_id, surface.u, surface.v + v_size(surface) / 2u, shape},
-    };
+    surface.shape += 1u << V_LEVEL_SHIFT;
+    Halves halves = {surface, surface};
+    halves.high.v += v_size(surface);
     return halves;
-}
-
-static Halves halves_of(Surface surface, uint code) {
-    return code == SPLIT_U ? halves_u(surface) : halves_v(surface);
-}
-
-static Draw new_draw(Surface surface, Verdict verdict) {
-    const Draw draw = {surface.patch_id, surface.u, surface.v, surface.shape, verdict.columns, verdict.rows};
-    return draw;
 }
 
 static Surface surface_of(Draw draw) {
-    const Surface surface = {draw.patch_id, draw.u, draw.v, draw.shape};
+    const Surface surface = {draw.patch_id, draw.u, draw.v, draw.shape & LEVELS_MASK,
+                             {draw.borders[0], draw.borders[1], draw.borders[2], draw.borders[3]}};
     return surface;
 }

@@ -46,40 +46,57 @@ static void recall(const Sampler *s, __global const Sample *samples, uint lane) 
     }
 }
 
-// Ranks `count` listed draws, from number `first` of the list on.
+// Micropolygons of draw `index` of the chunk.
+static uint micropolygons(const Sampler *s, uint index) {
+    const uint2 rates = rates_in(s->grids[flags_place(index)]);
+    return rates.x * rates.y;
+}
+
+// Ranks `count` listed draws, from number `first` of the list on, and numbers their micropolygons.
 static void give_ranks(const Sampler *s, uint count, uint lane) {
     __local Tile *tile = s->tile;
     for (uint slot = lane; slot < count; slot += GROUP) {
         const uint index = tile->list[s->first + slot], patch_id = s->draws[index].patch_id;
-        uint before = 0u, smaller = 0u;
+        uint before = 0u, smaller = 0u, start = 0u;
         for (uint other = 0u; other < count; other++) {
             const uint its = tile->list[s->first + other];
             before += its < index ? 1u : 0u;
             smaller += s->draws[its].patch_id < patch_id ? 1u : 0u;
+            start += other < slot ? micropolygons(s, its) : 0u;
         }
         tile->rank[slot] = before;
         tile->patch_rank[slot] = smaller;
         tile->order[before] = index;
+        tile->start[slot] = start;
+        if (slot + 1u == count) {
+            tile->start[count] = start + micropolygons(s, index);
+        }
     }
 }
 
-// Samples the items of the listed draws, every 64th a work-item.
+// Samples a micropolygon of the draw in a slot.
+static void sample_one(Sampler *s, uint kind, uint slot, uint number) {
+    const uint index = s->tile->list[s->first + slot], base = grid_base(s->frame, index);
+    const uint rate = rates_in(s->grids[flags_place(index)]).x;
+    const Place place = new_place(number % rate, number / rate);
+    const uint key = slot << CELL_BITS | cell_of(place);
+    if (kind == KIND_NEAR) {
+        sample_near(s, base, quad_of(rate, place), key);
+    } else {
+        sample_general(s, base, quad_of(rate, place), key);
+    }
+}
+
+// Samples the micropolygons of the listed draws, every 64th a work-item.
 static void sample_all(Sampler *s, uint kind, uint count, uint lane) {
-    const uint all = items(s->frame);
-    const uint slots = GROUP / all, tasks = GROUP % all;
-    uint slot = lane / all, task = lane % all;
-    while (slot < count) {
-        const uint index = s->tile->list[s->first + slot], base = grid_base(s->frame, index);
-        const Item item = item_of(s->frame, s->grids[flags_place(index)], task);
-        const uint key = slot << CELL_BITS | item.cell;
-        if (item.exists && kind == KIND_NEAR) {
-            sample_near(s, base, item, key);
-        } else if (item.exists) {
-            sample_general(s, base, item, key);
+    __local const ushort *start = s->tile->start;
+    const uint all = start[count];
+    uint slot = 0u;
+    for (uint task = lane; task < all; task += GROUP) {
+        while (task >= start[slot + 1u]) {
+            slot += 1u;
         }
-        task += tasks;
-        slot += slots + (task >= all ? 1u : 0u);
-        task -= task >= all ? all : 0u;
+        sample_one(s, kind, slot, task - start[slot]);
     }
 }
 
@@ -100,10 +117,11 @@ static void resolve_pixel(const Sampler *s, uint pixel, uint at, __global Sample
     const uint u = tile->patch_u[pixel] & (PARAM_ONE - 1u), v = tile->v_draw[pixel] >> RANK_BITS;
     const Sample found = {tile->depth[pixel], surface.patch_id, u, v};
     if (nearer(found, samples[at])) {
-        const Place place = new_place((u - surface.u) / (u_size(surface) >> rate_bits(s->frame)),
-                                      (v - surface.v) / (v_size(surface) >> rate_bits(s->frame)));
+        const Place place = new_place((u - surface.u) / (u_size(surface) >> MAX_RATE_BITS),
+                                      (v - surface.v) / (v_size(surface) >> MAX_RATE_BITS));
+        const Quad quad = quad_of(rates_in(s->grids[flags_place(index)]).x, place);
         samples[at] = found;
-        colours[at] = colour_of(s->frame, s->grids, grid_base(s->frame, index), place);
+        colours[at] = colour_of(s->frame, s->grids, grid_base(s->frame, index), quad);
     }
 }
 

@@ -1,22 +1,5 @@
 // Mirrors core/src/kernel/weber.rs: the verdict on a surface as Weber's program reaches it.
 
-// A point of a patch; the inner points of a Gregory patch are put into its net.
-static float3 point_at(uint zero, Net *net, const Faces *faces, bool is_gregory, uint u, uint v) {
-    if (is_gregory) {
-        for (uint m = 0u; m < 4u; m++) {
-            put_inner(zero, faces, net, m, weber_blend_at(zero, m, param(zero, u), param(zero, v)).x);
-        }
-    }
-    const float4 row = cubic(zero, param(zero, v)), weights = cubic(zero, param(zero, u));
-    float4 x, y, z;
-    for (uint i = 0u; i < 4u; i++) {
-        x[i] = blend4(zero, row, vload4(i, net->x));
-        y[i] = blend4(zero, row, vload4(i, net->y));
-        z[i] = blend4(zero, row, vload4(i, net->z));
-    }
-    return (float3)(blend4(zero, weights, x), blend4(zero, weights, y), blend4(zero, weights, z));
-}
-
 static uint weber_split(Surface surface, bool along_u) {
     if (along_u) {
         return u_level(surface) < WEBER_SPLITS ? SPLIT_U : CULL;
@@ -83,7 +66,7 @@ static uint weber_code(__constant Frame *frame, Net *net, const Faces *faces, bo
     float3 points[9];
     for (uint k = 0u; k < 9u; k++) {
         const uint u = surface.u + k / 3u * (u_size(surface) / 2u);
-        points[k] = point_at(zero, net, faces, is_gregory, u, surface.v + k % 3u * (v_size(surface) / 2u));
+        points[k] = point_at(frame, net, faces, is_gregory, u, surface.v + k % 3u * (v_size(surface) / 2u));
     }
     float3 low = points[0], high = points[0];
     for (uint k = 0u; k < 9u; k++) {
