@@ -58,7 +58,7 @@ fn a_single_wrong_bit_is_found_and_named() {
     let expected = run_stage(&mut cpu(1), &input).expect("runs");
     let mut found = expected.clone();
     let verdicts = found[6].as_mut().expect("an output");
-    verdicts[3 * 7 + 1] ^= 1;
+    verdicts[5 * 7 + 1] ^= 1;
     let difference = first_difference(Stage::Bound, &expected, &found).expect("a difference");
     assert_eq!((difference.buffer, difference.item, difference.field.as_str()), ("verdicts", 7, "columns"));
 }

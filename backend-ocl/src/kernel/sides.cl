@@ -88,8 +88,8 @@ static float polygon(uint zero, float a, float b, float c) {
 // Steps of a line that is so long on screen.
 static uint steps_of(__constant Frame *frame, float length) {
     const uint zero = frame->zero;
-    const int steps = -floor(neg(mul(length, frame->density)));
-    return (uint)greater(1, lesser(steps, (int)frame->rate));
+    const float steps = clamp(mul(length, frame->density), 1.0f, num_float(zero, (int)frame->rate));
+    return (uint)(-floor(neg(steps)));
 }
 
 // How the sides of a surface are divided: as they were, unless they are live and short enough; or long, but may not be

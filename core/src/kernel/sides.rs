@@ -8,7 +8,7 @@ use crate::abi::{DRAW_LIMITED, FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_BITS, PARAM_
 use crate::border::{SIDES, Side};
 use crate::kernel::bound::{Reach, distance, measured_point, point_on_screen};
 use crate::kernel::dice_gregory::evaluate_gregory;
-use crate::num::{add, floor, max, min, mul, neg};
+use crate::num::{add, clamp, float, floor, max, min, mul, neg};
 use crate::patch::{Faces, Net};
 
 /// Lengths in pixels: of the longest lines of the surface along `u` and along `v`, and of its sides.
@@ -52,15 +52,9 @@ pub(super) const fn polygon(a: f32, b: f32, c: f32) -> f32 {
 #[inline(always)]
 #[must_use]
 pub fn steps(frame: &Frame, length: f32) -> u32 {
-    let steps = -floor(neg(mul(length, frame.density)));
-    let most = frame.rate as i32;
-    (if steps < 1 {
-        1
-    } else if steps > most {
-        most
-    } else {
-        steps
-    }) as u32
+    let most = float(frame.rate as i32);
+    let steps = clamp(mul(length, frame.density), 1.0, most);
+    -floor(neg(steps)) as u32
 }
 
 /// How the sides of a surface are divided, given their lengths: as they were, unless they are live and short
