@@ -3,9 +3,9 @@
 use micropoly_core::camera::{Borders, FrameOptions};
 use serde::Serialize;
 
+use crate::backend::render;
 use crate::error::Result;
 use crate::mesh::lengths::Histogram;
-use crate::backend::render;
 use crate::render::RenderOptions;
 use crate::scene::Scene;
 

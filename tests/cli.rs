@@ -252,7 +252,8 @@ fn breadth_keeps_to_its_budget_or_says_what_the_next_level_needs() {
     let (mut budget, mut levels) = (1024, 0);
     loop {
         std::fs::remove_file(&path).unwrap_or_default();
-        let (code, text, written) = render(&scene, &["--scheduler=breadth", "--bound=4", &format!("--memory={budget}")]);
+        let (code, text, written) =
+            render(&scene, &["--scheduler=breadth", "--bound=4", &format!("--memory={budget}")]);
         if code == 0 {
             assert!(std::fs::read(&path).expect("an image") == expected, "another image");
             break;

@@ -216,7 +216,10 @@ fn the_flight_through_the_city_begins_at_its_camera_and_has_its_spike_at_frame_3
         batches: Vec::new(),
         views: Views::Path(7),
         repeat: 1,
-        options: RenderOptions { frame: FrameOptions { bound: 8.0, ..FrameOptions::default() }, ..RenderOptions::default() },
+        options: RenderOptions {
+            frame: FrameOptions { bound: 8.0, ..FrameOptions::default() },
+            ..RenderOptions::default()
+        },
     };
     let rows = plan.run(&city, |_| {}).expect("runs");
     let spike = spike(&rows).expect("BREADTH was measured");

@@ -27,7 +27,12 @@ fn torus() -> Vec<BezierPatch> {
         (0..count)
             .map(|k| {
                 let ((sa, ca), (sb, cb)) = (at(k), at(k + 1));
-                [[ca, sa], [ca - handle * sa, sa + handle * ca], [cb + handle * sb, sb - handle * cb], [cb, sb]]
+                [
+                    [ca, sa],
+                    [ca - handle * sa, sa + handle * ca],
+                    [cb + handle * sb, sb - handle * cb],
+                    [cb, sb],
+                ]
             })
             .collect()
     };
@@ -138,7 +143,8 @@ fn the_teapot_is_open_at_its_rims_only() {
 
 /// Black pixels: the sky, or holes.
 fn black(scene: &Scene, frame: FrameOptions) -> Vec<bool> {
-    let image = render(scene, &RenderOptions { frame, ..RenderOptions::default() }, |_| {}).expect("renders").image;
+    let image =
+        render(scene, &RenderOptions { frame, ..RenderOptions::default() }, |_| {}).expect("renders").image;
     image.rgb.chunks_exact(3).map(|rgb| rgb == [0, 0, 0]).collect()
 }
 
@@ -161,7 +167,9 @@ fn images_have_no_hole_inside_the_silhouette_at_any_rate_and_bound() {
             let at = |x: usize, y: usize| black[y * 320 + x];
             let inner = (1..179).flat_map(|y| (1..319).map(move |x| (x, y)));
             inner
-                .filter(|&(x, y)| at(x, y) && !at(x - 1, y) && !at(x + 1, y) && !at(x, y - 1) && !at(x, y + 1))
+                .filter(|&(x, y)| {
+                    at(x, y) && !at(x - 1, y) && !at(x + 1, y) && !at(x, y - 1) && !at(x, y + 1)
+                })
                 .count()
         };
         holes += lonely(frame);

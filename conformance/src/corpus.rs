@@ -8,9 +8,10 @@ use std::ops::RangeInclusive;
 
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
-use micropoly_core::abi::{PARAM_BITS, MAX_RATE, SPLIT_U, SPLIT_V,
+use micropoly_core::abi::{
     CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, Limits,
-    MAX_LEVELS, MAX_SPLITS, Object, PARAM_ONE, Patch, Sample, Shared, Slot, Surface, Verdict,
+    MAX_LEVELS, MAX_RATE, MAX_SPLITS, Object, PARAM_BITS, PARAM_ONE, Patch, SPLIT_U, SPLIT_V, Sample, Shared,
+    Slot, Surface, Verdict,
 };
 use micropoly_core::border::{SIDES, Side};
 use micropoly_core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile};
@@ -159,7 +160,8 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
         bound: [3.0, 8.0, 40.0][random.usize(0..3)],
         rate: random.u32(1..=16),
         size: [0.3, 1.0, 2.0][random.usize(0..3)],
-        borders: [Borders::Watertight, Borders::Watertight, Borders::Naive, Borders::Fixed][random.usize(0..4)],
+        borders: [Borders::Watertight, Borders::Watertight, Borders::Naive, Borders::Fixed]
+            [random.usize(0..4)],
         levels: random.u32(1..=41),
         cull_backfaces: random.bool(),
         whole: random.u8(0..6) == 0,

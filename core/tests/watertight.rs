@@ -50,7 +50,8 @@ fn cube(n: usize) -> (Vec<Vec3>, Quads) {
 /// turned anyhow; some are Gregory patches.
 fn closed(random: &mut fastrand::Rng, n: usize, rough: f32, gregory: bool) -> Vec<Patch> {
     let (points, faces) = cube(n);
-    let jitter = |random: &mut fastrand::Rng| Vec3::from_array([0; 3].map(|_| between(random, -rough, rough)));
+    let jitter =
+        |random: &mut fastrand::Rng| Vec3::from_array([0; 3].map(|_| between(random, -rough, rough)));
     let mut curves: HashMap<(usize, usize), [Vec3; 2]> = HashMap::new();
     let (mut patches, mut records) = (Vec::new(), Vec::new());
     for face in &faces {

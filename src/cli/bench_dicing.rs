@@ -40,7 +40,8 @@ fn scenes(files: &[std::path::PathBuf]) -> Result<Vec<Scene>> {
         ("city", include_str!("../../scenes/city.toml")),
         ("eyesplit", include_str!("../../scenes/eyesplit.toml")),
     ];
-    let parsed = |(name, text): (&str, &str)| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
+    let parsed =
+        |(name, text): (&str, &str)| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
     built_in.into_iter().map(parsed).collect()
 }
 

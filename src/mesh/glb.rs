@@ -24,7 +24,8 @@ pub(super) fn write(mesh: &Mesh, file: &mut impl Write) -> Result<()> {
         json.push(b' ');
     }
     let length = 12 + 8 + json.len() + 8 + binary.len();
-    let length = u32::try_from(length).map_err(|_| Error::other("a .glb file ends at 4 GiB: choose .ply or .obj"))?;
+    let length =
+        u32::try_from(length).map_err(|_| Error::other("a .glb file ends at 4 GiB: choose .ply or .obj"))?;
     file.write_all(MAGIC)?;
     file.write_all(&VERSION.to_le_bytes())?;
     file.write_all(&length.to_le_bytes())?;
@@ -41,9 +42,18 @@ fn described(mesh: &Mesh) -> (Root, Vec<u8>) {
     let mut parts = Parts { root: Root::default(), binary: Vec::new() };
     let patches: Vec<f32> = mesh.patches.iter().map(|patch| *patch as f32).collect();
     let attributes = [
-        (Semantic::Positions, parts.list(bytemuck::cast_slice(&mesh.positions), Type::Vec3, ComponentType::F32, 12)),
-        (Semantic::Normals, parts.list(bytemuck::cast_slice(&mesh.normals), Type::Vec3, ComponentType::F32, 12)),
-        (Semantic::TexCoords(0), parts.list(bytemuck::cast_slice(&mesh.uvs), Type::Vec2, ComponentType::F32, 8)),
+        (
+            Semantic::Positions,
+            parts.list(bytemuck::cast_slice(&mesh.positions), Type::Vec3, ComponentType::F32, 12),
+        ),
+        (
+            Semantic::Normals,
+            parts.list(bytemuck::cast_slice(&mesh.normals), Type::Vec3, ComponentType::F32, 12),
+        ),
+        (
+            Semantic::TexCoords(0),
+            parts.list(bytemuck::cast_slice(&mesh.uvs), Type::Vec2, ComponentType::F32, 8),
+        ),
         (
             Semantic::Extras("PATCH".into()),
             parts.list(bytemuck::cast_slice(&patches), Type::Scalar, ComponentType::F32, 4),
@@ -122,7 +132,8 @@ impl Parts {
 }
 
 fn extent(positions: &[[f32; 3]]) -> ([f32; 3], [f32; 3]) {
-    let all = (positions.first().copied().unwrap_or_default(), positions.first().copied().unwrap_or_default());
+    let all =
+        (positions.first().copied().unwrap_or_default(), positions.first().copied().unwrap_or_default());
     positions.iter().fold(all, |(low, high), position| {
         ([0, 1, 2].map(|k| low[k].min(position[k])), [0, 1, 2].map(|k| high[k].max(position[k])))
     })

@@ -56,10 +56,8 @@ impl Histogram {
         self.drawn += 1;
         self.micropolygons += u64::from(draw.rate_u() * draw.rate_v());
         let surface = draw.surface();
-        let whole = [
-            surface.u_level() == 0 && draw.rate_u() == 1,
-            surface.v_level() == 0 && draw.rate_v() == 1,
-        ];
+        let whole =
+            [surface.u_level() == 0 && draw.rate_u() == 1, surface.v_level() == 0 && draw.rate_v() == 1];
         for row in 0..grid.rows {
             for column in 0..grid.stride {
                 let at = row * grid.stride + column;

@@ -88,7 +88,10 @@ impl Mesh {
     fn append(&mut self, patch: u32, part: Part) -> Result<()> {
         let first = self.positions.len();
         if first + part.positions.len() > u32::MAX as usize {
-            return Err(Error::scene("the mesh has more than 2³² vertices", "choose a larger --micropolygon-size"));
+            return Err(Error::scene(
+                "the mesh has more than 2³² vertices",
+                "choose a larger --micropolygon-size",
+            ));
         }
         let first = first as u32;
         self.patches.extend(part.positions.iter().map(|_| patch));

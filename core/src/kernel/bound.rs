@@ -4,8 +4,8 @@
 //! is ever culled, and the control polygons are at least as long as the curves they control.
 
 use crate::abi::{
-    CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_WEBER, FLAG_WHOLE, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING,
-    SPLIT_U, SPLIT_V, Surface, Verdict,
+    CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_WEBER, FLAG_WHOLE, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch,
+    ROUNDING, SPLIT_U, SPLIT_V, Surface, Verdict,
 };
 use crate::border::Side;
 use crate::kernel::dice::position_at;
@@ -257,7 +257,8 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
     let points = measured(frame, &hull.part);
     let lengths = hull.lengths(frame, surface, &points);
     if crosses {
-        let pixels = if strays.is_some() { PixelBox::whole(frame) } else { pixels_if_cut(frame, hull, farthest) };
+        let pixels =
+            if strays.is_some() { PixelBox::whole(frame) } else { pixels_if_cut(frame, hull, farthest) };
         let code = by_extents(frame, surface, extents_if_cut(frame, &hull.part));
         return with_sides(frame, surface, &lengths, verdict(code, pixels));
     }

@@ -85,7 +85,8 @@ pub fn bound_lanes(
             lanes.measure(frame);
         }
         for (l, (surface, verdict)) in surfaces.iter().zip(verdicts).enumerate() {
-            let known = if lanes.alone[l] { None } else { lanes.verdict(frame, objects, patches, *surface, l) };
+            let known =
+                if lanes.alone[l] { None } else { lanes.verdict(frame, objects, patches, *surface, l) };
             *verdict = match known {
                 Some(verdict) => verdict,
                 None => bound_any(frame, objects, patches, *surface),
@@ -173,7 +174,8 @@ impl Lanes {
         l: usize,
     ) -> Option<Verdict> {
         let [nearest, farthest, slack] = [self.nearest[l], self.farthest[l], self.slack[l]];
-        let strays = if surface.keeps_its_corners() { None } else { strays(frame, objects, patches, surface) };
+        let strays =
+            if surface.keeps_its_corners() { None } else { strays(frame, objects, patches, surface) };
         if let Some(strays) = strays {
             if strays.nearest < frame.near {
                 return None;

@@ -135,7 +135,9 @@ impl Moved {
                 out.put(at, surface.corner(corner));
             }
         }
-        for (side, (first, step)) in [(0, 1), (last, 1), (0, stride), (stride - 1, stride)].into_iter().enumerate() {
+        for (side, (first, step)) in
+            [(0, 1), (last, 1), (0, stride), (stride - 1, stride)].into_iter().enumerate()
+        {
             let rate = rates[side / 2];
             if surface.is_regular(side, rate) {
                 continue;

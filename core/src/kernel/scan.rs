@@ -39,13 +39,7 @@ pub fn scan(
 
 /// The counts after a batch in which so many were split and drawn.
 #[must_use]
-pub fn commit(
-    control: Control,
-    splits: u32,
-    draws: u32,
-    stack_room: u32,
-    draw_room: u32,
-) -> Control {
+pub fn commit(control: Control, splits: u32, draws: u32, stack_room: u32, draw_room: u32) -> Control {
     let stack = control.base + 2 * splits;
     let excess_stack = stack.saturating_sub(stack_room);
     let excess_draws = (control.waiting + draws).saturating_sub(draw_room);

@@ -149,8 +149,7 @@ impl Strays {
             let [u, v] = surface.corner(corner);
             let point = position(u, v);
             let ([x, y], distance) = (point_on_screen(frame, point), neg(point[2]));
-            let own =
-                Self { x: Reach::at(x), y: Reach::at(y), nearest: distance, farthest: distance };
+            let own = Self { x: Reach::at(x), y: Reach::at(y), nearest: distance, farthest: distance };
             found = Some(found.map_or(own, |others| others.joined(own)));
         }
         found

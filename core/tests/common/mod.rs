@@ -81,7 +81,11 @@ pub fn divided(random: &mut fastrand::Rng, surface: Surface, code: u32, seldom: 
     let sides = SIDES.map(|side| {
         let (known, level) = (surface.side(side), [surface.u_level(), surface.v_level()][side / 2]);
         let steps = random.u32(1..=MAX_RATE);
-        if known.steps > 0 || random.u32(0..seldom) > 0 { known } else { Side { steps, bits: PARAM_BITS - level } }
+        if known.steps > 0 || random.u32(0..seldom) > 0 {
+            known
+        } else {
+            Side { steps, bits: PARAM_BITS - level }
+        }
     });
     Verdict { code, ..Verdict::default() }.with_sides(sides, [0; 2])
 }
