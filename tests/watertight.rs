@@ -6,6 +6,7 @@ use std::process::Command;
 
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly::core::camera::{Borders, Material};
+use micropoly::core::num::dot3;
 use micropoly::generate::{Generator, generate};
 use micropoly::mesh::{Format, Mesh};
 use micropoly::{BezierPatch, Camera, FrameOptions, RenderOptions, Scene, SceneObject, render};
@@ -22,8 +23,8 @@ fn scene_of(patches: Vec<BezierPatch>) -> Scene {
 fn torus() -> Vec<BezierPatch> {
     // A quarter and an eighth of a circle of radius 1; ends that are shared are the same numbers.
     let ring = |count: usize| -> Vec<[[f64; 2]; 4]> {
-        let at = |k: usize| (std::f64::consts::TAU * (k % count) as f64 / count as f64).sin_cos();
-        let handle = 4.0 / 3.0 * (std::f64::consts::TAU / count as f64 / 4.0).tan();
+        let at = |k: usize| libm::sincos(std::f64::consts::TAU * (k % count) as f64 / count as f64);
+        let handle = 4.0 / 3.0 * libm::tan(std::f64::consts::TAU / count as f64 / 4.0);
         (0..count)
             .map(|k| {
                 let ((sa, ca), (sb, cb)) = (at(k), at(k + 1));
@@ -220,7 +221,7 @@ fn objects_are_placed_in_the_world_and_normals_point_outwards() {
     for [a, b, c] in &mesh.triangles {
         let [p, q, r] = [a, b, c].map(|at| vector(*at, &mesh.positions));
         let face = (q - p).cross(r - p);
-        agree += i32::from(face.dot(vector(*a, &mesh.normals)) > 0.0);
+        agree += i32::from(dot3(face.to_array(), mesh.normals[*a as usize]) > 0.0);
     }
     let share = f64::from(agree) / mesh.triangles.len() as f64;
     assert!(!(0.01..0.99).contains(&share), "{share} of the triangles face as their normals say");

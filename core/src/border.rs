@@ -105,7 +105,7 @@ impl Surface {
     #[inline(always)]
     #[must_use]
     pub const fn corner(self, corner: usize) -> [u32; 2] {
-        let u = if corner % 2 == 0 { self.u } else { self.u + self.u_size() };
+        let u = if corner.is_multiple_of(2) { self.u } else { self.u + self.u_size() };
         let v = if corner < 2 { self.v } else { self.v + self.v_size() };
         astray(self.borders[corner] >> CORNER_SHIFT, [u, v])
     }
@@ -205,7 +205,7 @@ impl Surface {
         // No vertex since the side's start, so that is where it is: back to it, and wherever that has strayed.
         let word = self.borders[corners_of(side)[0]] >> CORNER_SHIFT;
         let cleared = (word >> (5 * along)) & FIVE_BITS;
-        let more = if own_bits > cleared { own_bits - cleared } else { 0 };
+        let more = own_bits.saturating_sub(cleared);
         word + (more << (5 * along))
     }
 
@@ -262,7 +262,7 @@ impl Verdict {
     #[inline(always)]
     const fn side(self, side: usize) -> u32 {
         let word = if side < 2 { self.along_u } else { self.along_v };
-        if side % 2 == 0 { word & SIDE_MASK } else { (word >> CORNER_SHIFT) & SIDE_MASK }
+        if side.is_multiple_of(2) { word & SIDE_MASK } else { (word >> CORNER_SHIFT) & SIDE_MASK }
     }
 
     /// Micropolygons along `u` and along `v`; of drawn surfaces only.
