@@ -469,8 +469,15 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     let most = if round >= SHORT { 200 } else { [3, 60, 60, 200][random.usize(0..4)] };
     let mut draws = Vec::new();
     for _ in 0..400 {
-        let surface =
-            if round >= SHORT { near_middle(random, frame.rate) } else { surface(random, PATCHES, splits.clone(), frame.rate) };
+        let steps = frame.rate;
+        let mut surface = if round >= SHORT {
+            near_middle(random, steps)
+        } else {
+            surface(random, PATCHES, splits.clone(), steps)
+        };
+        if frame.flags & FLAG_WEBER != 0 {
+            surface.borders = [0; 4]; // by those rules no side is ever divided
+        }
         let verdict = bound_any(&frame, &objects, &patches, surface);
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {

@@ -102,7 +102,7 @@ fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
 // The pixels that drawing the surface inside a hull can touch.
 fn pixels_of(hull: Hull) -> vec4<i32> {
     let nearest = nearest_of(hull);
-    if nearest < frame.near {
+    if nearest < frame.near || is_whole() {
         return whole_image();
     }
     return pixels_seen(see(hull, nearest, measured(hull.part)));
