@@ -166,7 +166,7 @@ fn middle_corner(surface: Surface, number: u32) -> u32 {
     return word + (more << (5u * along));
 }
 
-// A side of a verdict, packed, and all of them.
+// All sides of a verdict, packed.
 fn verdict_sides(verdict: Verdict) -> vec4<u32> {
     let words = vec2<u32>(verdict.along_u, verdict.along_v);
     return vec4<u32>(words, words >> vec2<u32>(CORNER_SHIFT)).xzyw & vec4<u32>(SIDE_MASK);

@@ -8,6 +8,8 @@
 @group(0) @binding(5) var<storage, read> patches_more: array<Patch>;
 
 const GROUP: u32 = 64u;
+// An invocation each prepares what vertices share.
+const_assert BORDER <= GROUP && ROW_CURVES <= GROUP;
 // A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `near` in `triangle.wgsl`.
 const NARROW: i32 = 16000;
 
@@ -73,8 +75,6 @@ fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
         flat_length = mul(size(), FLAT);
     }
 }
-
-const_assert BORDER <= GROUP && ROW_CURVES <= GROUP;
 
 fn clear_measures() {
     atomicStore(&low_x, 0x7fffffff);
