@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use micropoly_core::abi::{FLAG_WEBER, Frame, Layout, Patch, Shared};
+use micropoly_core::abi::{FLAG_WEBER, FLAG_WHOLE, Frame, Layout, Patch, Shared};
 
 use crate::error::WgpuError;
 
@@ -45,7 +45,9 @@ impl WgpuBuffer {
         let is_general = if T::LAYOUT == Patch::LAYOUT {
             bytemuck::cast_slice::<T, Patch>(data).iter().any(|patch| patch.faces > 0)
         } else if T::LAYOUT == Frame::LAYOUT {
-            bytemuck::cast_slice::<T, Frame>(data).iter().any(|frame| frame.flags & FLAG_WEBER != 0)
+            bytemuck::cast_slice::<T, Frame>(data)
+                .iter()
+                .any(|frame| frame.flags & (FLAG_WEBER | FLAG_WHOLE) != 0)
         } else {
             false
         };

@@ -77,7 +77,7 @@ fn rounds_bytes((width, height): (u32, u32)) -> u64 {
 /// Size of the grids of a chunk; see `grids.wgsl`.
 fn grids_bytes(rate: u32) -> u64 {
     let vertices = (u64::from(rate) + 1).pow(2);
-    4 * (GRIDS + DRAWS * (1 + 3 * (vertices + 8) + 6 * vertices))
+    4 * (GRIDS + DRAWS * (1 + 9 * vertices))
 }
 
 /// Puts a larger buffer in the place of one that is too small; says whether it did.

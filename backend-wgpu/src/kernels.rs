@@ -25,17 +25,17 @@ files! {
     NUM: "num",
     ITEMS: "items",
     SURFACE: "surface",
+    BORDER: "border",
     BEZIER: "bezier",
     NET: "net",
     PROJECT: "project",
     GREGORY: "gregory",
     WEBER: "weber",
+    SIDES: "sides",
     BOUND: "bound",
     BOUND_BEZIER: "bound_bezier",
     BOUND_ANY: "bound_any",
     BOUND_BATCH: "bound_batch",
-    SEAM: "seam",
-    SEAM_GREGORY: "seam_gregory",
     DICE: "dice",
     DICE_BEZIER: "dice_bezier",
     DICE_GREGORY: "dice_gregory",
@@ -171,34 +171,49 @@ impl Which {
     pub const fn files(self) -> &'static [File] {
         match self {
             Self::Stage(Stage::Take) => &[GEN, COUNTS, SURFACE, TAKE, TAKE_BATCH],
-            Self::Stage(Stage::Bound) => {
-                &[GEN, ITEMS, NUM, SURFACE, BEZIER, NET, PROJECT, BOUND_BEZIER, BOUND, BOUND_BATCH]
-            }
+            Self::Stage(Stage::Bound) => &[
+                GEN,
+                ITEMS,
+                NUM,
+                SURFACE,
+                BORDER,
+                BEZIER,
+                NET,
+                PROJECT,
+                SIDES,
+                BOUND_BEZIER,
+                BOUND,
+                BOUND_BATCH,
+            ],
             Self::BoundAny => &[
                 GEN,
                 ITEMS,
                 NUM,
                 SURFACE,
+                BORDER,
                 BEZIER,
                 NET,
                 PROJECT,
                 GREGORY,
                 WEBER,
+                SIDES,
                 BOUND_ANY,
                 BOUND,
                 BOUND_BATCH,
             ],
-            Self::Stage(Stage::Scan) => &[GEN, COUNTS, SCAN, SCAN_BATCH],
-            Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, SPLIT, SPLIT_BATCH],
+            Self::Stage(Stage::Scan) => &[GEN, COUNTS, SURFACE, BORDER, SCAN, SCAN_BATCH],
+            Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, BORDER, SPLIT, SPLIT_BATCH],
             Self::Stage(Stage::Local) => &[
                 GEN,
                 ITEMS,
                 COUNTS,
                 NUM,
                 SURFACE,
+                BORDER,
                 BEZIER,
                 NET,
                 PROJECT,
+                SIDES,
                 BOUND_BEZIER,
                 BOUND,
                 TAKE,
@@ -207,8 +222,8 @@ impl Which {
                 LOCAL,
             ],
             Self::LocalAny => &[
-                GEN, ITEMS, COUNTS, NUM, SURFACE, BEZIER, NET, PROJECT, GREGORY, WEBER, BOUND_ANY, BOUND,
-                TAKE, SCAN, SPLIT, LOCAL,
+                GEN, ITEMS, COUNTS, NUM, SURFACE, BORDER, BEZIER, NET, PROJECT, GREGORY, WEBER, SIDES,
+                BOUND_ANY, BOUND, TAKE, SCAN, SPLIT, LOCAL,
             ],
             Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
             Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
@@ -221,6 +236,7 @@ impl Which {
                 GRIDS,
                 NUM,
                 SURFACE,
+                BORDER,
                 BEZIER,
                 NET,
                 PROJECT,
@@ -228,7 +244,6 @@ impl Which {
                 DICE,
                 DICE_BEZIER,
                 SHADE,
-                SEAM,
                 DRAW,
             ],
             Self::DrawAny => &[
@@ -236,6 +251,7 @@ impl Which {
                 GRIDS,
                 NUM,
                 SURFACE,
+                BORDER,
                 BEZIER,
                 NET,
                 GREGORY,
@@ -244,16 +260,14 @@ impl Which {
                 DICE,
                 DICE_GREGORY,
                 SHADE,
-                SEAM,
-                SEAM_GREGORY,
                 DRAW,
             ],
             Self::ArrangeTiles => &[GEN, GRIDS, ROUNDS, ARRANGE_TILES],
             Self::Tiles(Kind::Near) => {
-                &[GEN, GRIDS, NUM, SURFACE, PROJECT, TRIANGLE, SAMPLE, NEAR, ROUNDS, TILES]
+                &[GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, TRIANGLE, SAMPLE, NEAR, ROUNDS, TILES]
             }
             Self::Tiles(Kind::General) => {
-                &[GEN, GRIDS, NUM, SURFACE, PROJECT, TRIANGLE, CLIP, SAMPLE, GENERAL, ROUNDS, TILES]
+                &[GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, TRIANGLE, CLIP, SAMPLE, GENERAL, ROUNDS, TILES]
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Every scene gives exactly the CPU's bits. Needs a Vulkan driver; Mesa's software one will do.
 
-use micropoly::{FrameOptions, Profile, Scene};
+use micropoly::{Borders, FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
 use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
@@ -72,7 +72,7 @@ fn the_still_life_has_the_same_bits() {
 /// Kernels of their own: see `bound_any.wgsl` and `dice_gregory.wgsl`.
 #[test]
 fn gregory_patches_and_webers_rules_have_the_same_bits() {
-    let weber = FrameOptions { profile: Profile::Weber2014, ..small() };
+    let weber = FrameOptions { profile: Profile::Weber2014, rate: 8, bound: 8.0, ..small() };
     assert_same(&case("gregory", small()), &[500, 4096]);
     assert_same(&case("gregory", weber), &[500]);
     assert_same(&case("teapot", weber), &[4096]);
@@ -81,7 +81,7 @@ fn gregory_patches_and_webers_rules_have_the_same_bits() {
 /// One group and many, stacks as small as they can be and as large as they are without a capacity.
 #[test]
 fn groups_with_stacks_of_their_own_give_the_same_bits() {
-    let weber = FrameOptions { profile: Profile::Weber2014, ..small() };
+    let weber = FrameOptions { profile: Profile::Weber2014, rate: 8, bound: 8.0, ..small() };
     let mut device = open();
     for case in [case("teapot", small()), case("gregory", small()), case("eyesplit", weber)] {
         let (expected, least) = (on_cpu(&case), stack_min(u64::from(case.frame.levels)) as u32);
@@ -93,14 +93,37 @@ fn groups_with_stacks_of_their_own_give_the_same_bits() {
     }
 }
 
+/// As fine as grids can be, and as short as they then are on screen.
 #[test]
 fn large_grids_have_the_same_bits() {
-    assert_same(&case("teapot", FrameOptions { rate: 16, bound: 20.0, ..small() }), &[4096]);
+    assert_same(&case("teapot", FrameOptions { size: 0.5, bound: 8.0, ..small() }), &[4096]);
 }
 
 #[test]
 fn small_grids_have_the_same_bits() {
     assert_same(&case("teapot", FrameOptions { rate: 2, bound: 20.0, ..small() }), &[4096]);
+}
+
+/// Rates that are no powers of two, in grids of the same kind.
+#[test]
+fn odd_grids_have_the_same_bits() {
+    assert_same(&case("teapot", FrameOptions { rate: 7, bound: 7.0, ..small() }), &[4096]);
+    assert_same(&case("gregory", FrameOptions { rate: 7, bound: 7.0, ..small() }), &[4096]);
+}
+
+#[test]
+fn all_borders_have_the_same_bits() {
+    for borders in [Borders::Naive, Borders::Fixed] {
+        assert_same(&case("teapot", FrameOptions { borders, ..small() }), &[4096]);
+        assert_same(&case("gregory", FrameOptions { borders, rate: 5, bound: 5.0, ..small() }), &[4096]);
+    }
+}
+
+/// A mesh that is to be whole is bounded by kernels for any patch, although all are Bezier patches.
+#[test]
+fn whole_meshes_have_the_same_bits() {
+    assert_same(&case("teapot", FrameOptions { whole: true, ..small() }), &[4096]);
+    assert_same(&case("gregory", FrameOptions { whole: true, ..small() }), &[4096]);
 }
 
 #[test]
@@ -162,7 +185,7 @@ fn a_buffer_beyond_the_limits_is_an_error() {
     let error = open().allocate("stack", Surface::LAYOUT, 1 << 24).expect_err("too large");
     assert_eq!(
         error.to_string(),
-        "the stack buffer of 268435456 bytes is larger than the 134217728 bytes that wgpu allows; \
+        "the stack buffer of 536870912 bytes is larger than the 134217728 bytes that wgpu allows; \
          use a smaller batch, image or scene, or the CPU"
     );
 }

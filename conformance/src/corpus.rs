@@ -212,8 +212,9 @@ fn patch(random: &mut fastrand::Rng) -> Patch {
     patch
 }
 
-/// A range anywhere, at a corner or about the middle; now and then one parameter is split to the end.
-fn surface(random: &mut fastrand::Rng, patches: u32, splits: RangeInclusive<u32>) -> Surface {
+/// A range anywhere, at a corner or about the middle; now and then one parameter is split to the end. Its sides have
+/// up to `most` steps.
+fn surface(random: &mut fastrand::Rng, patches: u32, splits: RangeInclusive<u32>, most: u32) -> Surface {
     let deepest = *splits.end();
     let splits = random.u32(splits);
     let along_u = if random.bool() { splits / 2 } else { random.u32(0..=splits) };
@@ -235,18 +236,18 @@ fn surface(random: &mut fastrand::Rng, patches: u32, splits: RangeInclusive<u32>
     };
     let at = [start(levels[0]), start(levels[1])];
     let patch_id = random.u32(0..patches);
-    descendant(random, patch_id, at, levels)
+    descendant(random, patch_id, at, levels, most)
 }
 
 /// The surface of a patch that starts at these parameters and was halved so often along each, in any order, while
-/// its sides were divided somehow.
-fn descendant(random: &mut fastrand::Rng, patch_id: u32, at: [u32; 2], levels: [u32; 2]) -> Surface {
+/// its sides were divided somehow, into up to `most` steps.
+fn descendant(random: &mut fastrand::Rng, patch_id: u32, at: [u32; 2], levels: [u32; 2], most: u32) -> Surface {
     let mut surface = Surface::root(patch_id);
     let seldom = [2, 8, u32::MAX][random.usize(0..3)];
     while [surface.u_level(), surface.v_level()] != levels {
         let left = [levels[0] - surface.u_level(), levels[1] - surface.v_level()];
         let is_u = left[1] == 0 || (left[0] > 0 && random.bool());
-        let verdict = divided(random, surface, if is_u { SPLIT_U } else { SPLIT_V }, seldom);
+        let verdict = divided(random, surface, if is_u { SPLIT_U } else { SPLIT_V }, seldom, most);
         let [low, high] = surface.halves(verdict);
         let is_high = if is_u { at[0] >= high.u } else { at[1] >= high.v };
         surface = if is_high { high } else { low };
@@ -254,16 +255,16 @@ fn descendant(random: &mut fastrand::Rng, patch_id: u32, at: [u32; 2], levels: [
     surface
 }
 
-/// A verdict on a surface, where one in `seldom` of its live sides is divided.
-fn divided(random: &mut fastrand::Rng, surface: Surface, code: u32, seldom: u32) -> Verdict {
+/// A verdict on a surface, where one in `seldom` of its live sides is divided into up to `most` steps.
+fn divided(random: &mut fastrand::Rng, surface: Surface, code: u32, seldom: u32, most: u32) -> Verdict {
     let mut sides = SIDES.map(|side| surface.side(side));
     for (side, out) in sides.iter_mut().enumerate() {
         let level = if side < 2 { surface.u_level() } else { surface.v_level() };
         if out.steps == 0 && random.u32(0..seldom) == 0 {
-            *out = Side { steps: random.u32(1..=MAX_RATE), bits: PARAM_BITS - level };
+            *out = Side { steps: random.u32(1..=most), bits: PARAM_BITS - level };
         }
     }
-    let rates = [random.u32(1..=MAX_RATE), random.u32(1..=MAX_RATE)];
+    let rates = [random.u32(1..=most), random.u32(1..=most)];
     Verdict { code, ..Verdict::default() }.with_sides(sides, rates)
 }
 
@@ -297,11 +298,11 @@ fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
 }
 
 /// A surface that ends at half or a quarter of both parameters.
-fn near_middle(random: &mut fastrand::Rng) -> Surface {
+fn near_middle(random: &mut fastrand::Rng, most: u32) -> Surface {
     let levels = [random.u32(2..=4), random.u32(2..=4)];
     let [u, v] = levels.map(|level| (PARAM_ONE >> [1, 1, 1, 2][random.usize(0..4)]) - (PARAM_ONE >> level));
     let patch_id = random.u32(0..PATCHES);
-    descendant(random, patch_id, [u, v], levels)
+    descendant(random, patch_id, [u, v], levels, most)
 }
 
 /// A Gregory patch whose line v = 1/2, or u = 1/2, seems straight and short, because the control points of the net
@@ -363,7 +364,7 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
     let next_root = random.u32(roots..=PATCHES);
     let taken = roots + held;
     let deepest = [4, 12, 40][random.usize(0..3)];
-    let stack: Vec<Surface> = (0..base + held).map(|_| surface(random, PATCHES, 0..=deepest)).collect();
+    let stack: Vec<Surface> = (0..base + held).map(|_| surface(random, PATCHES, 0..=deepest, MAX_RATE)).collect();
     let control = Control { base, taken, roots, next_root, stack: base + held, ..Control::default() };
     let room = (taken + random.u32(1..100)) as usize;
     let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
@@ -383,14 +384,14 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
 fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
     let most = [3000, 80][random.usize(0..2)];
     let taken = random.u32(1..most);
-    let surfaces: Vec<_> = (0..taken).map(|_| surface(random, PATCHES, 0..=18)).collect();
+    let surfaces: Vec<_> = (0..taken).map(|_| surface(random, PATCHES, 0..=18, MAX_RATE)).collect();
     let only = random.u32(0..8);
     let code = |random: &mut fastrand::Rng| {
         if only <= DRAW_LIMITED { only } else { random.u32(CULL..=DRAW_LIMITED) }
     };
     let verdict = |surface: &Surface| {
         let code = code(random);
-        Verdict { columns: random.u32(..), rows: random.u32(..), ..divided(random, *surface, code, 3) }
+        Verdict { columns: random.u32(..), rows: random.u32(..), ..divided(random, *surface, code, 3, MAX_RATE) }
     };
     let verdicts = surfaces.iter().map(verdict).collect();
     let before = Control { base: random.u32(0..1000), taken, waiting: random.u32(0..500), ..control(random) };
@@ -470,8 +471,15 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     let most = if round >= SHORT { 200 } else { [3, 60, 60, 200][random.usize(0..4)] };
     let mut draws = Vec::new();
     for _ in 0..400 {
-        let surface =
-            if round >= SHORT { near_middle(random) } else { surface(random, PATCHES, splits.clone()) };
+        let steps = frame.rate;
+        let mut surface = if round >= SHORT {
+            near_middle(random, steps)
+        } else {
+            surface(random, PATCHES, splits.clone(), steps)
+        };
+        if frame.flags & FLAG_WEBER != 0 {
+            surface.borders = [0; 4]; // by those rules no side is ever divided
+        }
         let verdict = bound_any(&frame, &objects, &patches, surface);
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {

@@ -16,6 +16,7 @@ struct Totals {
     processed: u32,
     culled: u32,
     limited: u32,
+    micropolygons: u32,
     peak: u32,
 }
 
@@ -46,13 +47,15 @@ fn main(@builtin(local_invocation_index) lane: u32) {
 }
 
 fn totals_of(group: Group) -> Totals {
-    return Totals(group.held, group.draws, group.processed, group.culled, group.limited, group.peak);
+    return Totals(
+        group.held, group.draws, group.processed, group.culled, group.limited, group.micropolygons, group.peak);
 }
 
 fn together(a: Totals, b: Totals) -> Totals {
     return Totals(
         a.held + b.held, a.draws + b.draws, a.processed + b.processed,
-        a.culled + b.culled, a.limited + b.limited, a.peak + b.peak,
+        a.culled + b.culled, a.limited + b.limited, a.micropolygons + b.micropolygons,
+        a.peak + b.peak,
     );
 }
 
@@ -101,6 +104,7 @@ fn counted(before: Control, all: Totals) -> Control {
     after.culled = before.culled + all.culled;
     after.drawn = before.drawn + all.draws;
     after.limited = before.limited + all.limited;
+    after.micropolygons = before.micropolygons + all.micropolygons;
     after.overflow = saturating_sub(waiting + all.draws, limits.draw_room);
     return after;
 }

@@ -1,36 +1,60 @@
 // Mirrors core/src/kernel/bound.rs: cull, draw or split a surface by the control hull of its range.
 
-// Control hull of a surface; what rounding can do; how far the surface can be from the one whose hull it is.
+// Control hull of a surface, and of its whole patch; what rounding can do; how far the surface can be from the one
+// whose hull it is.
 struct Hull {
+    whole: Net,
     part: Net,
     slack: f32,
     spread: f32,
 }
 
-// Control points on screen, and how far the surface can be outside of their hull.
+// Where on screen a surface lies, and how far what is drawn can be outside of that.
 struct Seen {
-    on_screen: OnScreen,
+    x: Reach,
+    y: Reach,
     margin: f32,
 }
 
 fn hull_of_bezier(whole: Net, surface: Surface) -> Hull {
-    return Hull(restricted(whole, surface), mul(extent(whole), ROUNDING), 0.0);
+    return Hull(whole, restricted(whole, surface), mul(extent(whole), ROUNDING), 0.0);
 }
 
 fn nearest_of(hull: Hull) -> f32 {
     return sub(neg(fold_max(hull.part.z)), hull.spread);
 }
 
-fn see(hull: Hull, nearest: f32) -> Seen {
-    let seen = on_screen(hull.part);
-    let scale = recip(nearest);
-    let wobble = wobble_of(seen, hull.spread, scale);
-    let margin = add(add(1.0, mul(mul(frame.focal, hull.slack), scale)), wobble);
-    return Seen(seen, margin);
+fn farthest_of(hull: Hull) -> f32 {
+    return add(neg(fold_min(hull.part.z)), hull.spread);
 }
 
-fn seen_pixels(seen: Seen) -> vec4<i32> {
-    return pixels_around(seen.on_screen, add(seen.margin, mul(frame.bound, SEAM_ALLOWANCE)));
+// What the image shows of a hull that lies beyond the near plane, `nearest` away.
+fn see(hull: Hull, nearest: f32, points: Net) -> Seen {
+    let margin = add(margin_of(hull.slack, nearest), wobble_of(points, hull.spread, nearest));
+    return Seen(reach_of(points.x), reach_of(points.y), margin);
+}
+
+// How far, in pixels, rounding and the snap can move what is drawn of a surface that is `nearest` away.
+fn margin_of(slack: f32, nearest: f32) -> f32 {
+    return add(1.0, mul(mul(frame.focal, slack), recip(nearest)));
+}
+
+fn reach_of(offsets: array<f32, 16>) -> Reach {
+    return Reach(fold_min(offsets), fold_max(offsets));
+}
+
+fn pixels_seen(seen: Seen) -> vec4<i32> {
+    return vec4<i32>(
+        pixel_range(seen.x, frame.centre_x, frame.width, seen.margin),
+        pixel_range(seen.y, frame.centre_y, frame.height, seen.margin),
+    );
+}
+
+fn pixel_range(reach: Reach, centre: f32, pixels: u32, margin: f32) -> vec2<i32> {
+    let size = float(i32(pixels));
+    let low = sub(add(reach.low, centre), margin);
+    let high = add(add(reach.high, centre), add(margin, 1.0));
+    return vec2<i32>(floor(clamp(low, 0.0, size)), floor(clamp(high, 0.0, size)));
 }
 
 fn bound(surface: Surface) -> Verdict {
@@ -39,34 +63,50 @@ fn bound(surface: Surface) -> Verdict {
 
 fn judge(surface: Surface, hull: Hull) -> Verdict {
     let nearest = nearest_of(hull);
-    let farthest = add(neg(fold_min(hull.part.z)), hull.spread);
-    if add(farthest, hull.slack) < frame.near {
-        return verdict(CULL, PIXELS_EMPTY);
+    let farthest = farthest_of(hull);
+    let strays = strays_of(surface, hull);
+    let crosses = nearest < frame.near && add(farthest, hull.slack) >= frame.near;
+    if !is_whole() && is_out_of_view(hull, max(farthest, strays.distances.high), crosses && !strays.exist) {
+        return culled();
     }
-    if nearest < frame.near {
-        if beside_the_view(hull.part, add(hull.slack, hull.spread)) {
-            return verdict(CULL, PIXELS_EMPTY);
+    let points = measured(hull.part);
+    let lengths = lengths_of(surface, hull, points);
+    var extents = vec2<f32>(lengths.u, lengths.v);
+    var pixels = whole_image();
+    if crosses && !is_whole() {
+        extents = extents_if_cut(hull.part);
+        if !strays.exist {
+            pixels = pixels_if_cut(hull, farthest);
         }
-        let code = refine(surface, depth_spans(hull.part), false);
-        return verdict(code, vec4<i32>(0, i32(frame.width), 0, i32(frame.height)));
+    } else if min(nearest, strays.distances.low) >= frame.near && !is_whole() {
+        let seen = see(hull, nearest, points);
+        pixels = pixels_seen(Seen(joined(seen.x, strays.x), joined(seen.y, strays.y), seen.margin));
+        if is_empty(pixels) {
+            return culled();
+        }
     }
-    let seen = see(hull, nearest);
-    if is_empty(pixels_around(seen.on_screen, seen.margin)) {
-        return verdict(CULL, PIXELS_EMPTY);
-    }
-    let pixels = seen_pixels(seen);
-    let extents = extents_of(seen.on_screen);
-    if max(extents.x, extents.y) <= frame.bound {
-        return verdict(DRAW, pixels);
-    }
-    return verdict(refine(surface, extents, true), pixels);
+    return divided_verdict(surface, lengths, verdict(by_extents(surface, extents), pixels));
+}
+
+// Is all of a hull, as far as `end` away, before the near plane, or, if it crosses it, beside the view?
+fn is_out_of_view(hull: Hull, end: f32, crosses: bool) -> bool {
+    return add(end, hull.slack) < frame.near
+        || (crosses && beside_the_view(hull.part, add(hull.slack, hull.spread)));
 }
 
 // Left, right, top and bottom in pixels; right and bottom are one past the last.
+fn whole_image() -> vec4<i32> {
+    return vec4<i32>(0, i32(frame.width), 0, i32(frame.height));
+}
+
 const PIXELS_EMPTY: vec4<i32> = vec4<i32>(0, 0, 0, 0);
 
 fn is_empty(pixels: vec4<i32>) -> bool {
     return pixels.x >= pixels.y || pixels.z >= pixels.w;
+}
+
+fn culled() -> Verdict {
+    return verdict(CULL, PIXELS_EMPTY);
 }
 
 fn verdict(code: u32, pixels: vec4<i32>) -> Verdict {
@@ -74,10 +114,29 @@ fn verdict(code: u32, pixels: vec4<i32>) -> Verdict {
         code,
         u32(pixels.x) | (u32(pixels.y) << 16u),
         u32(pixels.z) | (u32(pixels.w) << 16u),
+        0u,
+        0u,
     );
 }
 
-fn refine(surface: Surface, extents: vec2<f32>, limited: bool) -> u32 {
+// The verdict, with sides and rates.
+fn divided_verdict(surface: Surface, lengths: Lengths, found: Verdict) -> Verdict {
+    let sides = divide(surface, lengths);
+    let plain = with_sides(found, sides, vec2<u32>(0u));
+    if plain.code == SPLIT_U || plain.code == SPLIT_V {
+        return plain;
+    }
+    return with_sides(found, sides, rates_for(divided(surface, plain), lengths));
+}
+
+fn by_extents(surface: Surface, extents: vec2<f32>) -> u32 {
+    if max(extents.x, extents.y) <= frame.bound {
+        return DRAW;
+    }
+    return refine(surface, extents);
+}
+
+fn refine(surface: Surface, extents: vec2<f32>) -> u32 {
     let open_u = u_level(surface) < MAX_SPLITS;
     let open_v = v_level(surface) < MAX_SPLITS;
     if level(surface) + 1u >= frame.levels {
@@ -87,7 +146,7 @@ fn refine(surface: Surface, extents: vec2<f32>, limited: bool) -> u32 {
         if open_u {
             return SPLIT_U;
         }
-        if open_v && limited && extents.y > frame.bound {
+        if open_v && extents.y > frame.bound {
             return SPLIT_V;
         }
         return DRAW_LIMITED;
@@ -95,7 +154,7 @@ fn refine(surface: Surface, extents: vec2<f32>, limited: bool) -> u32 {
     if open_v {
         return SPLIT_V;
     }
-    if open_u && limited && extents.x > frame.bound {
+    if open_u && extents.x > frame.bound {
         return SPLIT_U;
     }
     return DRAW_LIMITED;
@@ -120,77 +179,85 @@ fn beyond(depths: array<f32, 16>, coordinates: array<f32, 16>, half: f32, slack:
     return add(fold_max(low), tolerance) < 0.0 || add(fold_max(high), tolerance) < 0.0;
 }
 
-fn depth_spans(part: Net) -> vec2<f32> {
-    var z = part.z;
-    var along_u = 0.0;
-    var along_v = 0.0;
-    for (var l = 0u; l < 4u; l++) {
-        along_u = max(along_u, span(z[l], z[4u + l], z[8u + l], z[12u + l]));
-        along_v = max(along_v, span(z[4u * l], z[4u * l + 1u], z[4u * l + 2u], z[4u * l + 3u]));
-    }
-    return vec2<f32>(along_u, along_v);
-}
-
-fn span(a: f32, b: f32, c: f32, d: f32) -> f32 {
-    return sub(max(max(a, b), max(c, d)), min(min(a, b), min(c, d)));
-}
-
-// Pixel offsets of the control points from the optical axis.
-struct OnScreen {
-    x: array<f32, 16>,
-    y: array<f32, 16>,
-}
-
-fn on_screen(part: Net) -> OnScreen {
-    var net = part;
-    var out: OnScreen;
+// Lengths along u and along v of a surface that crosses the near plane: as if all of it were there, and turned to the
+// eye.
+fn extents_if_cut(part: Net) -> vec2<f32> {
+    let scale = mul(frame.focal, recip(frame.near));
+    var points = part;
     for (var l = 0u; l < 16u; l++) {
-        let seen = perspective(vec3<f32>(net.x[l], net.y[l], net.z[l]));
-        out.x[l] = clamp(seen.x, neg(FAR_OFF), FAR_OFF);
-        out.y[l] = clamp(seen.y, neg(FAR_OFF), FAR_OFF);
+        points.x[l] = clamp(mul(points.x[l], scale), neg(FAR_OFF), FAR_OFF);
+        points.y[l] = clamp(mul(points.y[l], scale), neg(FAR_OFF), FAR_OFF);
+        points.z[l] = clamp(mul(points.z[l], scale), neg(FAR_OFF), FAR_OFF);
     }
-    return out;
+    return vec2<f32>(longest(polygons_u(points)), longest(polygons_v(points)));
 }
 
-fn segment(dx: f32, dy: f32) -> f32 {
-    return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));
+// The pixels that drawing a surface can touch of which parts lie as near as the near plane.
+fn pixels_if_cut(hull: Hull, farthest: f32) -> vec4<i32> {
+    let scale = vec2<f32>(recip(frame.near), recip(max(add(farthest, hull.slack), frame.near)));
+    let margin = margin_of(add(hull.slack, hull.spread), frame.near);
+    let x = reach_if_cut(fold_min(hull.part.x), fold_max(hull.part.x), scale);
+    let y = reach_if_cut(neg(fold_max(hull.part.y)), neg(fold_min(hull.part.y)), scale);
+    return pixels_seen(Seen(x, y, margin));
 }
 
-fn length_u(seen: OnScreen) -> f32 {
-    var at = seen;
+// What is off the axis is seen farthest off it at the near plane.
+fn reach_if_cut(low: f32, high: f32, scale: vec2<f32>) -> Reach {
+    return Reach(
+        mul(mul(low, frame.focal), select(scale.y, scale.x, low < 0.0)),
+        mul(mul(high, frame.focal), select(scale.y, scale.x, high > 0.0)),
+    );
+}
+
+// Where the control points are for measuring lengths.
+fn measured(part: Net) -> Net {
+    var points = part;
+    for (var l = 0u; l < 16u; l++) {
+        let point = measured_point(vec3<f32>(points.x[l], points.y[l], points.z[l]));
+        points.x[l] = point.x;
+        points.y[l] = point.y;
+        points.z[l] = point.z;
+    }
+    return points;
+}
+
+// Pixel offsets of one point from the optical axis.
+fn point_on_screen(point: vec3<f32>) -> vec2<f32> {
+    let seen = perspective(point);
+    return vec2<f32>(clamp(seen.x, neg(FAR_OFF), FAR_OFF), clamp(seen.y, neg(FAR_OFF), FAR_OFF));
+}
+
+fn distance_of(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    let d = vec3<f32>(sub(b.x, a.x), sub(b.y, a.y), sub(b.z, a.z));
+    return sqrt(add(dot3(d, d), LENGTH_TINY));
+}
+
+// Lengths in pixels of the control polygons along u.
+fn polygons_u(points: Net) -> vec4<f32> {
+    var at = points;
     var lengths: array<f32, 12>;
     for (var l = 0u; l < 12u; l++) {
-        lengths[l] = segment(sub(at.x[l + 4u], at.x[l]), sub(at.y[l + 4u], at.y[l]));
+        let to = vec3<f32>(at.x[l + 4u], at.y[l + 4u], at.z[l + 4u]);
+        lengths[l] = distance_of(vec3<f32>(at.x[l], at.y[l], at.z[l]), to);
     }
-    var polygons: array<f32, 4>;
+    var polygons: vec4<f32>;
     for (var j = 0u; j < 4u; j++) {
-        polygons[j] = add(add(lengths[j], lengths[4u + j]), lengths[8u + j]);
+        polygons[j] = polygon(lengths[j], lengths[4u + j], lengths[8u + j]);
     }
-    return max(max(polygons[0], polygons[1]), max(polygons[2], polygons[3]));
+    return polygons;
 }
 
-fn length_v(seen: OnScreen) -> f32 {
-    var at = seen;
+// Lengths in pixels of the control polygons along v.
+fn polygons_v(points: Net) -> vec4<f32> {
+    var at = points;
     var lengths: array<f32, 15>;
     for (var l = 0u; l < 15u; l++) {
-        lengths[l] = segment(sub(at.x[l + 1u], at.x[l]), sub(at.y[l + 1u], at.y[l]));
+        let to = vec3<f32>(at.x[l + 1u], at.y[l + 1u], at.z[l + 1u]);
+        lengths[l] = distance_of(vec3<f32>(at.x[l], at.y[l], at.z[l]), to);
     }
-    var polygons: array<f32, 4>;
+    var polygons: vec4<f32>;
     for (var i = 0u; i < 4u; i++) {
-        polygons[i] = add(add(lengths[4u * i], lengths[4u * i + 1u]), lengths[4u * i + 2u]);
+        polygons[i] = polygon(lengths[4u * i], lengths[4u * i + 1u], lengths[4u * i + 2u]);
     }
-    return max(max(polygons[0], polygons[1]), max(polygons[2], polygons[3]));
-}
-
-fn pixels_around(seen: OnScreen, margin: f32) -> vec4<i32> {
-    let columns = pixel_range(seen.x, frame.centre_x, frame.width, margin);
-    let rows = pixel_range(seen.y, frame.centre_y, frame.height, margin);
-    return vec4<i32>(columns, rows);
-}
-
-fn pixel_range(offsets: array<f32, 16>, centre: f32, pixels: u32, margin: f32) -> vec2<i32> {
-    let size = float(i32(pixels));
-    let low = sub(add(fold_min(offsets), centre), margin);
-    let high = add(add(fold_max(offsets), centre), add(margin, 1.0));
-    return vec2<i32>(floor(clamp(low, 0.0, size)), floor(clamp(high, 0.0, size)));
+    return polygons;
 }

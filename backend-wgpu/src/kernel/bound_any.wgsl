@@ -1,66 +1,137 @@
-// Mirrors core/src/kernel/bound.rs: what of it concerns Gregory patches and the rules of Weber's program.
+// Mirrors core/src/kernel/bound.rs: what of it concerns Gregory patches, the rules of Weber's program, and meshes that
+// are to be whole.
 
 // Control points of a surface that is even nearer than the one whose hull is known, if the patch is a Gregory
 // patch: its lengths are the surface's.
 var<private> FOLLOWER: Net;
+// The patch's face points.
+var<private> FACES: Faces;
 var<private> IS_GREGORY: bool;
 
-// Lengths along u and along v on screen.
-fn extents_of(seen: OnScreen) -> vec2<f32> {
-    if IS_GREGORY {
-        let own = on_screen(FOLLOWER);
-        return vec2<f32>(length_u(own), length_v(own));
-    }
-    return vec2<f32>(length_u(seen), length_v(seen));
+fn is_whole() -> bool {
+    return (frame.flags & FLAG_WHOLE) != 0u;
 }
 
-fn wobble_of(seen: OnScreen, spread: f32, scale: f32) -> f32 {
-    let off_axis = max(largest_of(seen.x), largest_of(seen.y));
-    return mul(mul(add(frame.focal, off_axis), spread), scale);
+// Position of a vertex by itself.
+fn position_any(hull: Hull, u: u32, v: u32) -> vec3<f32> {
+    if IS_GREGORY {
+        return gregory_position(hull.whole, u, v);
+    }
+    return position_at(hull.whole, u, v);
+}
+
+// Mirrors core/src/kernel/dice_gregory.rs (evaluate_gregory): the point alone.
+fn gregory_position(net: Net, u: u32, v: u32) -> vec3<f32> {
+    return position_at(net_at(FACES, net, u, v), u, v);
+}
+
+// Where a point is for measuring lengths: on screen; or, if the mesh is to be whole, on a sheet of pixels that
+// surrounds the eye.
+fn measured_point(point: vec3<f32>) -> vec3<f32> {
+    if !is_whole() {
+        return vec3<f32>(point_on_screen(point), 0.0);
+    }
+    let before = max(neg(point.z), mul(largest3(point), frame.around));
+    return scale3(point, mul(frame.focal, recip(max(before, frame.near))));
+}
+
+// Lengths on screen of a hull whose control points are measured to be at `points`.
+fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
+    let own = lengths_of_polygons(polygons_u(points), polygons_v(points));
+    if !IS_GREGORY {
+        return own;
+    }
+    let sides = sides_of_gregory(hull.whole, surface, own.sides);
+    let followed = measured(FOLLOWER);
+    let u = longest(polygons_u(followed));
+    let v = longest(polygons_v(followed));
+    // A surface is no shorter than its sides.
+    return Lengths(max(u, max(sides.x, sides.y)), max(v, max(sides.z, sides.w)), sides);
+}
+
+// Mirrors core/src/kernel/sides.rs: a side on the patch's edge is as long as that of a Bezier patch, a line inside the
+// patch as four chords between its points.
+fn sides_of_gregory(net: Net, surface: Surface, lengths: vec4<f32>) -> vec4<f32> {
+    let at_u = vec2<u32>(surface.u, surface.u + u_size(surface));
+    let at_v = vec2<u32>(surface.v, surface.v + v_size(surface));
+    let at = vec4<u32>(at_v, at_u);
+    let is_live = (sides_of(surface) & vec4<u32>(FIVE_BITS)) == vec4<u32>(0u);
+    let is_inside = (at & vec4<u32>(PARAM_ONE - 1u)) != vec4<u32>(0u);
+    var out = lengths;
+    for (var side = 0u; side < 4u; side++) {
+        if is_live[side] && is_inside[side] {
+            out[side] = line_inside(net, surface, side);
+        }
+    }
+    return out;
+}
+
+fn line_inside(net: Net, surface: Surface, side: u32) -> f32 {
+    let own = extent_of(surface, side);
+    var chords: vec4<f32>;
+    var from_point = vec3<f32>(0.0, 0.0, 0.0);
+    for (var quarter = 0u; quarter < 5u; quarter++) {
+        let at = on_side(surface, side, own.start + quarter * ((1u << own.bits) / 4u));
+        let point = measured_point(gregory_position(net, at.x, at.y));
+        if quarter > 0u {
+            chords[quarter - 1u] = distance_of(from_point, point);
+        }
+        from_point = point;
+    }
+    return add(add(chords.x, chords.w), add(chords.y, chords.z));
+}
+
+fn wobble_of(points: Net, spread: f32, nearest: f32) -> f32 {
+    let off_axis = max(largest_of(points.x), largest_of(points.y));
+    return mul(mul(add(frame.focal, off_axis), spread), recip(nearest));
 }
 
 fn largest_of(c: array<f32, 16>) -> f32 {
     return max(fold_max(c), neg(fold_min(c)));
 }
 
-fn hull_of_gregory(whole: Net, faces: Faces, surface: Surface) -> Hull {
-    let slack = mul(max(extent(whole), faces_extent(faces)), ROUNDING);
+fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
+    let slack = mul(max(extent(whole), faces_extent(FACES)), ROUNDING);
     let exchanged = (frame.flags & FLAG_WEBER) != 0u;
-    let centred = centre_inner(faces, whole, surface, exchanged);
+    let centred = centre_inner(FACES, whole, surface, exchanged);
     let part = restricted(centred.net, surface);
-    FOLLOWER = follow(faces, part, surface, exchanged);
-    return Hull(part, slack, centred.spread);
+    FOLLOWER = follow(FACES, part, surface, exchanged);
+    return Hull(centred.net, part, slack, centred.spread);
 }
 
 // The pixels that drawing the surface inside a hull can touch.
 fn pixels_of(hull: Hull) -> vec4<i32> {
     let nearest = nearest_of(hull);
-    if nearest < frame.near {
-        return vec4<i32>(0, i32(frame.width), 0, i32(frame.height));
+    if nearest < frame.near || is_whole() {
+        return whole_image();
     }
-    return seen_pixels(see(hull, nearest));
+    return pixels_seen(see(hull, nearest, measured(hull.part)));
 }
 
 // The verdict on one surface of any patch, by the rules of the frame's profile.
 fn bound_any(surface: Surface) -> Verdict {
     let record = faces_of(surface.patch_id);
-    let is_gregory = record != 0u;
-    IS_GREGORY = is_gregory;
+    IS_GREGORY = record != 0u;
     let whole = in_eye_space(surface.patch_id);
-    var faces: Faces;
     var hull: Hull;
-    if is_gregory {
-        faces = faces_in_eye_space(record);
-        hull = hull_of_gregory(whole, faces, surface);
+    if IS_GREGORY {
+        FACES = faces_in_eye_space(record);
+        hull = hull_of_gregory(whole, surface);
     } else {
         hull = hull_of_bezier(whole, surface);
     }
     if (frame.flags & FLAG_WEBER) == 0u {
         return judge(surface, hull);
     }
-    let code = weber_code(whole, faces, is_gregory, surface);
+    return bound_weber(surface, whole, hull);
+}
+
+// The verdict by the rules of Weber's program.
+fn bound_weber(surface: Surface, whole: Net, hull: Hull) -> Verdict {
+    let code = weber_code(whole, FACES, IS_GREGORY, surface);
+    var pixels = PIXELS_EMPTY;
     if code == DRAW {
-        return verdict(code, pixels_of(hull));
+        pixels = pixels_of(hull);
     }
-    return verdict(code, PIXELS_EMPTY);
+    return with_sides(verdict(code, pixels), vec4<u32>(0u), vec2<u32>(frame.rate));
 }

@@ -1,15 +1,28 @@
-// Mirrors core/src/kernel/bound.rs: what of it concerns Bezier patches in our own profile only. Most scenes need
-// no more, and a software device would run the rest for nothing.
+// Mirrors core/src/kernel/bound.rs: what of it concerns Bezier patches in our own profile only, seen by a camera. Most
+// scenes need no more, and a software device would run the rest for nothing.
 
 fn bound_any(surface: Surface) -> Verdict {
     return bound(surface);
 }
 
-// Lengths along u and along v on screen.
-fn extents_of(seen: OnScreen) -> vec2<f32> {
-    return vec2<f32>(length_u(seen), length_v(seen));
+fn is_whole() -> bool {
+    return false;
 }
 
-fn wobble_of(seen: OnScreen, spread: f32, scale: f32) -> f32 {
+// Position of a vertex by itself.
+fn position_any(hull: Hull, u: u32, v: u32) -> vec3<f32> {
+    return position_at(hull.whole, u, v);
+}
+
+fn measured_point(point: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(point_on_screen(point), 0.0);
+}
+
+// Lengths on screen of a hull whose control points are measured to be at `points`.
+fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
+    return lengths_of_polygons(polygons_u(points), polygons_v(points));
+}
+
+fn wobble_of(points: Net, spread: f32, nearest: f32) -> f32 {
     return 0.0;
 }

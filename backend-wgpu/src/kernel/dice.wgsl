@@ -1,13 +1,18 @@
 // Mirrors core/src/kernel/dice.rs: a drawn surface becomes a grid of vertices.
 //
 // A group dices one surface together; what all vertices share lies in workgroup memory: the control net,
-// the weights of the columns and the iso-curves of the rows.
+// the weights of the columns and the iso-curves of the rows; and vertices of the border, which may lie anywhere on it.
 
 const STRIDE: u32 = MAX_RATE + 1u;
 const GRID: u32 = STRIDE * STRIDE;
+// Vertices on the border of the largest grid.
+const BORDER: u32 = 4u * MAX_RATE;
 
 // Eye-space control net: coordinate k of control point l at 16 k + l.
 var<workgroup> net: array<f32, 48>;
+// Parameters of columns and rows where the grid is regular.
+var<workgroup> column_u: array<u32, STRIDE>;
+var<workgroup> row_v: array<u32, STRIDE>;
 // Weights of each column: four of the position, three of the derivative.
 var<workgroup> column_cubic: array<vec4<f32>, STRIDE>;
 var<workgroup> column_slope: array<vec3<f32>, STRIDE>;
@@ -17,10 +22,16 @@ var<workgroup> row_across: array<vec4<f32>, ROW_CURVES>;
 const ROW_CURVES: u32 = 3u * STRIDE;
 // Tangents no longer than this have vanished.
 var<workgroup> flat_length: f32;
-// The grid on screen: vertex in row r and column c at (rate + 1) r + c.
+// Parameters of the border's vertices, and what is there, by `border_slot`.
+var<workgroup> border_uv: array<vec2<u32>, BORDER>;
+var<workgroup> border: array<Evaluated, BORDER>;
+// The grid on screen, by `vertex_number`.
 var<workgroup> grid_x: array<i32, GRID>;
 var<workgroup> grid_y: array<i32, GRID>;
 var<workgroup> grid_w: array<f32, GRID>;
+
+// Is the grid regular up to its border?
+var<private> IS_REGULAR: bool;
 
 // Control points 4 i ..= 4 i + 3 of coordinate k.
 fn net_row(k: u32, i: u32) -> vec4<f32> {
@@ -57,17 +68,55 @@ fn curve_across(k: u32, weights: vec3<f32>) -> vec4<f32> {
 }
 
 // The curve in row `row`, or the weights of column `column`: one share of what the vertices need.
-fn prepare_row(surface: Surface, task: u32) {
-    let row = task / 3u;
-    let t = param(surface.v + row * (v_size(surface) / frame.rate));
+fn prepare_row(task: u32) {
+    let t = param(row_v[task / 3u]);
     row_point[task] = curve_point(task % 3u, cubic(t));
     row_across[task] = curve_across(task % 3u, cubic_slope(t));
 }
 
-fn prepare_column(surface: Surface, column: u32) {
-    let t = param(surface.u + column * (u_size(surface) / frame.rate));
-    column_cubic[column] = cubic(t);
-    column_slope[column] = cubic_slope(t);
+fn prepare_column(draw: Draw, column: u32) {
+    let u = column_of(draw, column);
+    column_u[column] = u;
+    column_cubic[column] = cubic(param(u));
+    column_slope[column] = cubic_slope(param(u));
+}
+
+// The border's vertices are numbered row by row, the first and the last one first.
+fn border_count(rates: vec2<u32>) -> u32 {
+    return 2u * (rates.x + rates.y);
+}
+
+fn is_on_border(rates: vec2<u32>, row: u32, column: u32) -> bool {
+    return row == 0u || row == rates.y || column == 0u || column == rates.x;
+}
+
+fn border_slot(rates: vec2<u32>, row: u32, column: u32) -> u32 {
+    let whole_rows = 2u * (rates.x + 1u);
+    let in_first = select(rates.x + 1u, 0u, row == 0u) + column;
+    let between = whole_rows + 2u * (row - 1u) + select(1u, 0u, column == 0u);
+    return select(between, in_first, row == 0u || row == rates.y);
+}
+
+// The vertex that has a slot.
+fn prepare_border(draw: Draw, slot: u32) {
+    let rates = draw_rates(draw);
+    let whole_rows = 2u * (rates.x + 1u);
+    var row = select(0u, rates.y, slot > rates.x);
+    var column = select(slot, slot - rates.x - 1u, slot > rates.x);
+    if slot >= whole_rows {
+        row = 1u + (slot - whole_rows) / 2u;
+        column = select(0u, rates.x, (slot - whole_rows) % 2u != 0u);
+    }
+    border_uv[slot] = vertex_on_border(draw, row, column);
+}
+
+// u and v of a vertex.
+fn vertex_of(draw: Draw, row: u32, column: u32) -> vec2<u32> {
+    let rates = draw_rates(draw);
+    if !IS_REGULAR && is_on_border(rates, row, column) {
+        return border_uv[border_slot(rates, row, column)];
+    }
+    return vec2<u32>(column_u[column], row_v[row]);
 }
 
 // A point and its derivatives along u and along v.
@@ -95,20 +144,50 @@ fn evaluate(row: u32, column: u32) -> Evaluated {
     );
 }
 
-// Vertex number `at` of the grid at word `base`: position, snapped position, normal, colour.
-fn dice(surface: Surface, object: u32, at: u32, base: u32) {
-    let row = at / (frame.rate + 1u);
-    let column = at % (frame.rate + 1u);
-    let evaluated = evaluate_any(surface, row, column);
+// A vertex with weights and an iso-curve of its own: the same bits as in a row.
+fn evaluate_moved(at: vec2<u32>) -> Evaluated {
+    let row = param(at.y);
+    let weights = cubic(row);
+    let row_slope = cubic_slope(row);
+    let cubic_u = cubic(param(at.x));
+    let slope = cubic_slope(param(at.x));
+    let x = curve_point(0u, weights);
+    let y = curve_point(1u, weights);
+    let z = curve_point(2u, weights);
+    return Evaluated(
+        vec3<f32>(blend4(cubic_u, x), blend4(cubic_u, y), blend4(cubic_u, z)),
+        vec3<f32>(blend3(slope, steps(x)), blend3(slope, steps(y)), blend3(slope, steps(z))),
+        vec3<f32>(
+            blend4(cubic_u, curve_across(0u, row_slope)),
+            blend4(cubic_u, curve_across(1u, row_slope)),
+            blend4(cubic_u, curve_across(2u, row_slope)),
+        ),
+    );
+}
+
+fn evaluate_bezier(draw: Draw, row: u32, column: u32) -> Evaluated {
+    let rates = draw_rates(draw);
+    if !IS_REGULAR && is_on_border(rates, row, column) {
+        return border[border_slot(rates, row, column)];
+    }
+    return evaluate(row, column);
+}
+
+// One vertex of the grid at word `base`: position, snapped position, normal, colour.
+fn dice(draw: Draw, object: u32, row: u32, column: u32, base: u32) {
+    let evaluated = evaluate_any(draw, row, column);
     let vertex = project(evaluated.point);
+    let at = vertex_number(row, column);
     grid_x[at] = vertex.x;
     grid_y[at] = vertex.y;
     grid_w[at] = vertex.w;
+    measure(vertex);
     put_screen(base, at, vertex);
     put_space(base, at, 0u, evaluated.point);
     var normal = unit_normal(evaluated.du, evaluated.dv, flat_length);
     if largest3(normal) < 0.5 {
-        normal = mended_normal(surface, row, column);
+        let place = vertex_of(draw, row, column);
+        normal = normal_nearby(place.x, place.y);
     }
     let colour = shade(object, evaluated.point, normal);
     put_space(base, at, 3u, colour);
@@ -124,16 +203,6 @@ fn put_space(base: u32, at: u32, first: u32, value: vec3<f32>) {
     grids[space_base(base, first) + at] = bitcast<u32>(value.x);
     grids[space_base(base, first + 1u) + at] = bitcast<u32>(value.y);
     grids[space_base(base, first + 2u) + at] = bitcast<u32>(value.z);
-}
-
-fn position_at(u: u32, v: u32) -> vec3<f32> {
-    let row = cubic(param(v));
-    let at = cubic(param(u));
-    return vec3<f32>(
-        blend4(at, curve_point(0u, row)),
-        blend4(at, curve_point(1u, row)),
-        blend4(at, curve_point(2u, row)),
-    );
 }
 
 // Largest side of the box around the control points.
@@ -173,34 +242,14 @@ fn unit_normal(du: vec3<f32>, dv: vec3<f32>, flat_below: f32) -> vec3<f32> {
     return scale3(normal, scale);
 }
 
-fn mended_normal(surface: Surface, row: u32, column: u32) -> vec3<f32> {
-    let u = surface.u + column * (u_size(surface) / frame.rate);
-    let v = surface.v + row * (v_size(surface) / frame.rate);
-    return normal_nearby(u, v);
-}
-
 fn inward(t: u32) -> u32 {
     return t - t / 64u + PARAM_ONE / 128u;
 }
 
+// The normal a little towards the patch's middle, or that of the patch's diagonals, or towards the eye.
 fn normal_nearby(u: u32, v: u32) -> vec3<f32> {
-    let row = param(inward(v));
-    let column = param(inward(u));
-    let weights = cubic(column);
-    let slope = cubic_slope(column);
-    let row_weights = cubic(row);
-    let row_slope = cubic_slope(row);
-    let du = vec3<f32>(
-        blend3(slope, steps(curve_point(0u, row_weights))),
-        blend3(slope, steps(curve_point(1u, row_weights))),
-        blend3(slope, steps(curve_point(2u, row_weights))),
-    );
-    let dv = vec3<f32>(
-        blend4(weights, curve_across(0u, row_slope)),
-        blend4(weights, curve_across(1u, row_slope)),
-        blend4(weights, curve_across(2u, row_slope)),
-    );
-    let nearby = unit_normal(du, dv, flat_length);
+    let inside = evaluate_moved(vec2<u32>(inward(u), inward(v)));
+    let nearby = unit_normal(inside.du, inside.dv, flat_length);
     if largest3(nearby) > 0.5 {
         return nearby;
     }

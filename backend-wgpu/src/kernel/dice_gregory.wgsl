@@ -15,27 +15,12 @@ fn prepare_faces(patch_id: u32, lane: u32) {
     }
 }
 
-fn evaluate_any(surface: Surface, row: u32, column: u32) -> Evaluated {
+fn evaluate_any(draw: Draw, row: u32, column: u32) -> Evaluated {
     if record == 0u {
-        return evaluate(row, column);
+        return evaluate_bezier(draw, row, column);
     }
-    let u = surface.u + column * (u_size(surface) / frame.rate);
-    let v = surface.v + row * (v_size(surface) / frame.rate);
-    return evaluate_gregory(u, v);
-}
-
-fn position_any(u: u32, v: u32) -> vec3<f32> {
-    if record == 0u {
-        return position_at(u, v);
-    }
-    return evaluate_gregory(u, v).point;
-}
-
-fn blend_here(m: u32, u: f32, v: f32) -> Blend {
-    if (frame.flags & FLAG_WEBER) != 0u {
-        return weber_blend_at(m, u, v);
-    }
-    return blend_at(m, u, v);
+    let at = vertex_of(draw, row, column);
+    return evaluate_gregory(at.x, at.y);
 }
 
 // A point of a patch and its derivatives; the derivatives are the true ones, those of the blends included.

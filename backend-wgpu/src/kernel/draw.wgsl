@@ -8,15 +8,17 @@
 @group(0) @binding(5) var<storage, read> patches_more: array<Patch>;
 
 const GROUP: u32 = 64u;
+// An invocation each prepares what vertices share.
+const_assert BORDER <= GROUP && ROW_CURVES <= GROUP;
 // A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `near` in `triangle.wgsl`.
 const NARROW: i32 = 16000;
 
-// The box around all vertices and ends of chords.
+// The box around all vertices.
 var<workgroup> low_x: atomic<i32>;
 var<workgroup> high_x: atomic<i32>;
 var<workgroup> low_y: atomic<i32>;
 var<workgroup> high_y: atomic<i32>;
-// Not 0 if a vertex or an end must be clipped.
+// Not 0 if a vertex must be clipped.
 var<workgroup> must_clip: atomic<u32>;
 // Not 0 if a micropolygon may face the eye.
 var<workgroup> faces_eye: atomic<u32>;
@@ -25,42 +27,49 @@ var<workgroup> faces_eye: atomic<u32>;
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     ZERO = frame.zero;
     let draw = draws[grids[HEAD_START] + group.x];
-    let surface = surface_of(draw);
-    let object = object_of(draw.patch_id);
+    let rates = draw_rates(draw);
     let base = grid_base(group.x);
-    prepare(surface, lane);
+    prepare(draw, rates, lane);
     workgroupBarrier();
-    for (var at = lane; at < vertices(); at += GROUP) {
-        dice(surface, object, at, base);
-        measure(Vertex(grid_x[at], grid_y[at], grid_w[at]));
+    let object = object_of(draw.patch_id);
+    let stride = rates.x + 1u;
+    for (var task = lane; task < stride * (rates.y + 1u); task += GROUP) {
+        dice(draw, object, task / stride, task % stride, base);
     }
-    put_ends(base, lane);
     workgroupBarrier();
-    seek_faces(lane);
+    seek_faces(rates, lane);
     workgroupBarrier();
     if lane == 0u {
-        put_flags(base);
+        put_kind(base);
     }
 }
 
-// What all vertices share: the net, then the rows' curves, the columns' weights and the seams.
-fn prepare(surface: Surface, lane: u32) {
+// What vertices share: the net, then the rows' curves and the columns' weights; and the border.
+fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
+    IS_REGULAR = all(border_words(surface_of(draw)) == vec4<u32>(0u));
+    let is_moved = lane < border_count(rates) && !IS_REGULAR;
     if lane < 48u {
-        net[lane] = transformed(surface.patch_id, lane / 16u, lane % 16u);
+        net[lane] = transformed(draw.patch_id, lane / 16u, lane % 16u);
     }
-    prepare_faces(surface.patch_id, lane);
+    prepare_faces(draw.patch_id, lane);
     if lane == 63u {
         clear_measures();
     }
-    for (var column = lane; column <= frame.rate; column += GROUP) {
-        prepare_column(surface, column);
+    if lane <= rates.x {
+        prepare_column(draw, lane);
+    }
+    if lane <= rates.y {
+        row_v[lane] = row_of(draw, lane);
+    }
+    if is_moved {
+        prepare_border(draw, lane);
     }
     workgroupBarrier();
-    for (var task = lane; task < 3u * (frame.rate + 1u); task += GROUP) {
-        prepare_row(surface, task);
+    if lane < 3u * (rates.y + 1u) {
+        prepare_row(lane);
     }
-    if lane >= 60u {
-        seam(surface, lane - 60u);
+    if is_moved {
+        border[lane] = evaluate_moved(border_uv[lane]);
     }
     if lane == 59u {
         flat_length = mul(size(), FLAT);
@@ -86,19 +95,11 @@ fn measure(vertex: Vertex) {
     }
 }
 
-// The ends of the chords beyond the borders; where there is none, nothing reads them.
-fn put_ends(base: u32, lane: u32) {
-    if lane < ENDS && seam_chord[lane / 2u] != 0u {
-        put_screen(base, vertices() + lane, seam_ends[lane]);
-        measure(seam_ends[lane]);
-    }
-}
-
 // Finds out whether a micropolygon may face the eye, if that matters.
-fn seek_faces(lane: u32) {
-    let count = select(0u, frame.rate * frame.rate, (frame.flags & FLAG_CULL_BACKFACES) != 0u);
+fn seek_faces(rates: vec2<u32>, lane: u32) {
+    let count = select(0u, rates.x * rates.y, (frame.flags & FLAG_CULL_BACKFACES) != 0u);
     for (var index = lane; index < count; index += GROUP) {
-        if may_face_eye(index / frame.rate, index % frame.rate) {
+        if may_face_eye(index / rates.x, index % rates.x) {
             atomicStore(&faces_eye, 1u);
         }
     }
@@ -113,23 +114,16 @@ fn kind() -> u32 {
     return select(KIND_GENERAL, KIND_NEAR, narrow && atomicLoad(&must_clip) == 0u);
 }
 
-fn put_flags(base: u32) {
+fn put_kind(base: u32) {
     let found = kind();
-    var flags = found;
-    for (var border = 0u; border < 4u; border++) {
-        let height = firstLeadingBit(seam_longest[border]);
-        let longest = select(height, SEAM_LONGEST, height > SEAM_LONGEST);
-        let bits = longest | select(0u, SEAM_CHORD, seam_chord[border] != 0u);
-        flags |= bits << (SEAM_SHIFT + SEAM_BITS * border);
-    }
-    grids[base] = flags;
+    grids[base] = found;
     if found != KIND_HIDDEN {
         grids[HEAD_KINDS + found - 1u] = 1u;
     }
 }
 
 fn diced(row: u32, column: u32) -> Vertex {
-    let at = row * (frame.rate + 1u) + column;
+    let at = vertex_number(row, column);
     return Vertex(grid_x[at], grid_y[at], grid_w[at]);
 }
 

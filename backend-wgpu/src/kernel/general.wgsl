@@ -12,9 +12,9 @@ fn sample_item(base: u32, item: Item, key: u32) {
     let c = vertex_at(base, item.corners.z);
     let d = vertex_at(base, item.corners.w);
     let whole = a.w > 0.0 && b.w > 0.0 && c.w > 0.0 && d.w > 0.0;
-    if item.exists && whole {
+    if whole {
         micropolygon(a, b, c, d, key);
-    } else if item.is_quad {
+    } else {
         let from_a = space_at(base, item.corners.x, 0u);
         let to_c = space_at(base, item.corners.z, 0u);
         clipped(from_a, space_at(base, item.corners.y, 0u), to_c, key);

@@ -163,3 +163,24 @@ fn weber_blend_at(m: u32, u: f32, v: f32) -> Blend {
     let blend = blend_at(m, v, u);
     return Blend(blend.share, blend.along_v, blend.along_u);
 }
+
+// The blend by the rules of the frame's profile.
+fn blend_here(m: u32, u: f32, v: f32) -> Blend {
+    if (frame.flags & FLAG_WEBER) != 0u {
+        return weber_blend_at(m, u, v);
+    }
+    return blend_at(m, u, v);
+}
+
+// The net that the patch has at one parameter.
+fn net_at(all: Faces, whole: Net, u: u32, v: u32) -> Net {
+    var faces = all;
+    var net = whole;
+    for (var m = 0u; m < 4u; m++) {
+        let point = inner_point(faces.points[m], faces.points[4u + m], blend_here(m, param(u), param(v)).share);
+        net.x[inner(m)] = point.x;
+        net.y[inner(m)] = point.y;
+        net.z[inner(m)] = point.z;
+    }
+    return net;
+}

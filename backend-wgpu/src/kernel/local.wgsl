@@ -13,8 +13,8 @@
 const_assert GROUP == LOCAL_BATCH;
 
 var<workgroup> own_stack: array<Surface, LOCAL_STACK>;
-// Surfaces split, drawn and depth-limited.
-var<workgroup> totals: array<vec3<u32>, LOCAL_BATCH>;
+// Surfaces split, drawn and depth-limited, and micropolygons.
+var<workgroup> totals: array<vec4<u32>, LOCAL_BATCH>;
 // What one invocation tells all others, in a way that keeps their loops together.
 var<workgroup> group_shared: Group;
 var<workgroup> control_shared: Control;
@@ -67,12 +67,12 @@ fn work_off(control: Control, limits: Limits, lane: u32) {
         surface = own_stack[control.base + lane];
         verdict = bound_any(surface);
     }
-    totals[lane] = outputs(verdict.code);
+    totals[lane] = outputs(verdict);
     workgroupBarrier();
     let before = counts_before(lane);
     split(control, surface, verdict, Slot(before.x, before.y));
     if lane == LOCAL_BATCH - 1u {
-        let counts = before + outputs(verdict.code);
+        let counts = before + outputs(verdict);
         control_shared = commit(control, counts, limits.stack_room, limits.draw_room);
     }
 }
@@ -96,6 +96,7 @@ fn after_round(before: Group, control: Control) -> Group {
     group.processed = control.processed;
     group.culled = control.culled;
     group.limited = control.limited;
+    group.micropolygons = control.micropolygons;
     group.peak = control.peak;
     group.load = before.load + control.processed;
     return group;

@@ -11,7 +11,7 @@ fn sample_item(base: u32, item: Item, key: u32) {
     let c = vertex_at(base, item.corners.z);
     let d = vertex_at(base, item.corners.w);
     let pixels = pixels_of_quad(a, b, c, d);
-    if !item.exists || pixels.x >= pixels.y {
+    if pixels.x >= pixels.y {
         return;
     }
     var x = pixels.x;

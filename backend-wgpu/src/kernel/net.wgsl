@@ -93,18 +93,13 @@ fn restricted(net: Net, surface: Surface) -> Net {
     );
 }
 
-fn weighted_sum(w: vec4<f32>, a: f32, b: f32, c: f32, d: f32) -> f32 {
-    let low = add(mul(w.x, a), mul(w.y, b));
-    return add(low, add(mul(w.z, c), mul(w.w, d)));
-}
-
 fn combine_u(points: array<f32, 16>, weights: Blossom) -> array<f32, 16> {
     var c = points;
     var rows = weights.rows;
     var out: array<f32, 16>;
     for (var k = 0u; k < 4u; k++) {
         for (var j = 0u; j < 4u; j++) {
-            out[4u * k + j] = weighted_sum(rows[k], c[j], c[4u + j], c[8u + j], c[12u + j]);
+            out[4u * k + j] = blend4(rows[k], vec4<f32>(c[j], c[4u + j], c[8u + j], c[12u + j]));
         }
     }
     return out;
@@ -117,7 +112,7 @@ fn combine_v(points: array<f32, 16>, weights: Blossom) -> array<f32, 16> {
     for (var i = 0u; i < 4u; i++) {
         for (var l = 0u; l < 4u; l++) {
             out[4u * i + l] =
-                weighted_sum(rows[l], c[4u * i], c[4u * i + 1u], c[4u * i + 2u], c[4u * i + 3u]);
+                blend4(rows[l], vec4<f32>(c[4u * i], c[4u * i + 1u], c[4u * i + 2u], c[4u * i + 3u]));
         }
     }
     return out;

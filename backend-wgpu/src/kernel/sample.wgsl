@@ -30,6 +30,12 @@ var<workgroup> hit_place: array<u32, HITS>;
 var<workgroup> listed: array<u32, LISTED>;
 var<workgroup> rank: array<u32, LISTED>;
 var<workgroup> patch_rank: array<u32, LISTED>;
+// Of each of them, the number of its micropolygons, that of a row, and what to divide by the latter with.
+var<workgroup> quads: array<u32, LISTED>;
+const QUADS_MASK: u32 = 511u;
+const ROW_SHIFT: u32 = 9u;
+const SHARE_SHIFT: u32 = 14u;
+const SHARE_BITS: u32 = 12u;
 
 // The tile of this group: left, right, top, bottom in pixels.
 var<private> tile: vec4<i32>;
@@ -93,75 +99,28 @@ fn draw_at(index: u32) -> Draw {
     return draws[grids[HEAD_START] + index];
 }
 
-// One item of a grid: a quad, or a sliver of a seam as a quad whose last two corners are one.
+// One micropolygon of a grid: numbers of its corners, and its cell.
 struct Item {
-    // Numbers of its corners; see `grids.wgsl`.
     corners: vec4<u32>,
     cell: u32,
-    is_quad: bool,
-    // Is there such a sliver?
-    exists: bool,
 }
 
-// Number of items of a grid.
-fn items() -> u32 {
-    return frame.rate * (frame.rate + 4u);
+fn quads_of(draw: Draw) -> u32 {
+    let rates = draw_rates(draw);
+    let share = ((1u << SHARE_BITS) + rates.x - 1u) / rates.x;
+    return (rates.x * rates.y) | (rates.x << ROW_SHIFT) | (share << SHARE_SHIFT);
 }
 
-fn item_of(flags: u32, task: u32) -> Item {
-    let quads = frame.rate * frame.rate;
-    if task < quads {
-        return quad_of(task >> rate_bits(), task & (frame.rate - 1u));
-    }
-    return sliver_of(flags, task - quads);
-}
-
-fn cell_of(row: u32, column: u32) -> u32 {
-    return column * 32u + row;
+// Micropolygon number `task` of a grid, row by row. For so few this product is the quotient.
+fn item_of(shape: u32, task: u32) -> Item {
+    let row = (task * (shape >> SHARE_SHIFT)) >> SHARE_BITS;
+    return quad_of(row, task - row * ((shape >> ROW_SHIFT) & FIVE_BITS));
 }
 
 fn quad_of(row: u32, column: u32) -> Item {
-    let a = row * (frame.rate + 1u) + column;
-    let d = a + frame.rate + 1u;
-    return Item(vec4<u32>(a, a + 1u, d + 1u, d), cell_of(row, column), true, true);
-}
-
-// Row and column of step `t` of a border.
-fn border_place(border: u32, t: u32) -> vec2<u32> {
-    let other = select(0u, frame.rate, (border & 1u) != 0u);
-    return select(vec2<u32>(t, other), vec2<u32>(other, t), border < 2u);
-}
-
-// Sliver number `task` of 4 * rate: `rate` a border. Number 0 of a border is that of the chord beyond it;
-// the others are numbered as a heap is: one over the whole border, two over its halves, and so on.
-fn sliver_of(flags: u32, task: u32) -> Item {
-    let border = task >> rate_bits();
-    let number = task & (frame.rate - 1u);
-    let seam = flags >> (SEAM_SHIFT + SEAM_BITS * border);
-    let longest = seam & SEAM_LONGEST;
-    if number == 0u {
-        let end = vertices() + 2u * border;
-        let exists = longest > 0u && (seam & SEAM_CHORD) != 0u;
-        return sliver(end, border_place(border, frame.rate), end + 1u, exists);
-    }
-    let height = firstLeadingBit(number);
-    let span = frame.rate >> height;
-    let start = (number - (1u << height)) * span;
-    let first = vertex_number(border_place(border, start));
-    let last = vertex_number(border_place(border, start + span));
-    return sliver(first, border_place(border, start + span / 2u), last, span <= (1u << longest));
-}
-
-fn vertex_number(place: vec2<u32>) -> u32 {
-    return place.x * (frame.rate + 1u) + place.y;
-}
-
-fn sliver(first: u32, middle: vec2<u32>, last: u32, exists: bool) -> Item {
-    let edge = frame.rate - 1u;
-    let row = select(middle.x, edge, middle.x > edge);
-    let column = select(middle.y, edge, middle.y > edge);
-    let corners = vec4<u32>(first, vertex_number(middle), last, last);
-    return Item(corners, cell_of(row, column), false, exists);
+    let a = vertex_number(row, column);
+    let d = vertex_number(row + 1u, column);
+    return Item(vec4<u32>(a, a + 1u, d + 1u, d), column * 32u + row);
 }
 
 fn vertex_at(base: u32, at: u32) -> Vertex {
@@ -186,8 +145,8 @@ fn sample_of(surface: Surface, cell: u32, depth_bits: u32) -> Sample {
     return Sample(
         depth_bits,
         surface.patch_id,
-        surface.u + (cell / 32u) * (u_size(surface) >> rate_bits()),
-        surface.v + (cell % 32u) * (v_size(surface) >> rate_bits()),
+        surface.u + (cell / 32u) * (u_size(surface) >> MAX_RATE_BITS),
+        surface.v + (cell % 32u) * (v_size(surface) >> MAX_RATE_BITS),
     );
 }
 

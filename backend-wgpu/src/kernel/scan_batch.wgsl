@@ -10,8 +10,8 @@
 
 const RUNS: u32 = 256u;
 
-// Surfaces split, drawn and depth-limited.
-var<workgroup> totals: array<vec3<u32>, RUNS>;
+// Surfaces split, drawn and depth-limited, and micropolygons.
+var<workgroup> totals: array<vec4<u32>, RUNS>;
 
 @compute @workgroup_size(RUNS)
 fn main(@builtin(local_invocation_index) lane: u32) {
@@ -19,16 +19,16 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     let run = (taken + RUNS - 1u) / RUNS;
     let first = umin(lane * run, taken);
     let end = umin(first + run, taken);
-    var counts = vec3<u32>(0u, 0u, 0u);
+    var counts = vec4<u32>(0u, 0u, 0u, 0u);
     for (var item = first; item < end; item++) {
-        counts += outputs(verdicts[item].code);
+        counts += outputs(verdicts[item]);
     }
     totals[lane] = counts;
     workgroupBarrier();
     var before = counts_before(lane);
     for (var item = first; item < end; item++) {
         slots[item] = Slot(before.x, before.y);
-        before += outputs(verdicts[item].code);
+        before += outputs(verdicts[item]);
     }
     workgroupBarrier();
     if lane == RUNS - 1u {

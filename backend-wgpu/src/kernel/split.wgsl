@@ -5,13 +5,10 @@ fn split(control: Control, surface: Surface, verdict: Verdict, slot: Slot) {
     let place = control.base + 2u * slot.splits;
     switch verdict.code {
         case CULL: {}
-        case SPLIT_U: {
-            put_surface(place, half_u(surface, 0u));
-            put_surface(place + 1u, half_u(surface, 1u));
-        }
-        case SPLIT_V: {
-            put_surface(place, half_v(surface, 0u));
-            put_surface(place + 1u, half_v(surface, 1u));
+        case SPLIT_U, SPLIT_V: {
+            let children = halves(surface, verdict);
+            put_surface(place, children.low);
+            put_surface(place + 1u, children.high);
         }
         default: {
             put_draw(control.waiting + slot.draws, draw_of(surface, verdict));

@@ -104,7 +104,7 @@ fn touches(columns: u32, rows: u32) -> bool {
 fn list(index: u32, is_one: bool, lane: u32) -> u32 {
     if is_one {
         let item = grids[HEAD_START] + index;
-        let is_kind = (grids[grid_base(index)] & KIND_MASK) == KIND;
+        let is_kind = grids[grid_base(index)] == KIND;
         if is_kind && touches(draws[item].columns, draws[item].rows) {
             listed[atomicAdd(&listed_count, 1u)] = index;
         }
@@ -165,29 +165,33 @@ fn sample_listed(count: u32, lane: u32) {
 }
 
 fn give_ranks(slot: u32, count: u32) {
-    let patch_id = draw_at(listed[slot]).patch_id;
+    let draw = draw_at(listed[slot]);
     var before = 0u;
     var smaller = 0u;
     for (var other = 0u; other < count; other++) {
         before += select(0u, 1u, listed[other] < listed[slot]);
-        smaller += select(0u, 1u, draw_at(listed[other]).patch_id < patch_id);
+        smaller += select(0u, 1u, draw_at(listed[other]).patch_id < draw.patch_id);
     }
     rank[slot] = before;
     patch_rank[slot] = smaller;
+    quads[slot] = quads_of(draw);
 }
 
+// All micropolygons of all listed draws one after the other, every GROUP-th for this invocation.
 fn sample_all(count: u32, lane: u32) {
-    var slot = lane / items();
-    var task = lane % items();
-    let slots = GROUP / items();
-    let tasks = GROUP % items();
-    while slot < count {
-        let base = grid_base(listed[slot]);
-        let item = item_of(grids[base], task);
-        sample_item(base, item, (slot << CELL_BITS) | item.cell);
-        let next = task + tasks;
-        slot += slots + select(0u, 1u, next >= items());
-        task = next - select(0u, items(), next >= items());
+    var slot = 0u;
+    var task = lane;
+    while true {
+        while slot < count && task >= (quads[slot] & QUADS_MASK) {
+            task -= quads[slot] & QUADS_MASK;
+            slot += 1u;
+        }
+        if slot >= count {
+            break;
+        }
+        let item = item_of(quads[slot], task);
+        sample_item(grid_base(listed[slot]), item, (slot << CELL_BITS) | item.cell);
+        task += GROUP;
     }
 }
 
@@ -206,8 +210,8 @@ fn resolve(pixel: u32) {
     let place = (u32(tile.z) + pixel / TILE) * frame.width + u32(tile.x) + pixel % TILE;
     if nearer(found, samples[place]) {
         samples[place] = found;
-        let column = (u - surface.u) / (u_size(surface) >> rate_bits());
-        let row = (v - surface.v) / (v_size(surface) >> rate_bits());
+        let column = (u - surface.u) / (u_size(surface) >> MAX_RATE_BITS);
+        let row = (v - surface.v) / (v_size(surface) >> MAX_RATE_BITS);
         colours[place] = colour_of(grid_base(index), row, column);
     }
     atomicStore(&cand_patch_u[pixel], NOBODY);

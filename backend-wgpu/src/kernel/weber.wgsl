@@ -1,40 +1,5 @@
 // Mirrors core/src/kernel/weber.rs: the verdict on a surface as Weber's program reaches it.
 
-// A point of a net.
-fn point_at(net: Net, u: u32, v: u32) -> vec3<f32> {
-    let row = cubic(param(v));
-    let weights = cubic(param(u));
-    return vec3<f32>(
-        coordinate_at(net.x, weights, row),
-        coordinate_at(net.y, weights, row),
-        coordinate_at(net.z, weights, row),
-    );
-}
-
-fn coordinate_at(points: array<f32, 16>, weights: vec4<f32>, row: vec4<f32>) -> f32 {
-    var c = points;
-    return blend4(weights, vec4<f32>(
-        blend4(row, vec4<f32>(c[0], c[1], c[2], c[3])),
-        blend4(row, vec4<f32>(c[4], c[5], c[6], c[7])),
-        blend4(row, vec4<f32>(c[8], c[9], c[10], c[11])),
-        blend4(row, vec4<f32>(c[12], c[13], c[14], c[15])),
-    ));
-}
-
-// The net that a Gregory patch has at one parameter.
-fn weber_net_at(all: Faces, whole: Net, u: u32, v: u32) -> Net {
-    var faces = all;
-    var net = whole;
-    for (var m = 0u; m < 4u; m++) {
-        let share = weber_blend_at(m, param(u), param(v)).share;
-        let point = inner_point(faces.points[m], faces.points[4u + m], share);
-        net.x[inner(m)] = point.x;
-        net.y[inner(m)] = point.y;
-        net.z[inner(m)] = point.z;
-    }
-    return net;
-}
-
 fn weber_split(surface: Surface, along_u: bool) -> u32 {
     if along_u {
         return select(CULL, SPLIT_U, u_level(surface) < WEBER_SPLITS);
@@ -71,7 +36,13 @@ fn weber_on_screen(point: vec3<f32>) -> vec2<f32> {
 }
 
 fn polyline(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>) -> f32 {
-    return add(segment(sub(b.x, a.x), sub(b.y, a.y)), segment(sub(c.x, b.x), sub(c.y, b.y)));
+    return add(weber_segment(a, b), weber_segment(b, c));
+}
+
+fn weber_segment(a: vec2<f32>, b: vec2<f32>) -> f32 {
+    let dx = sub(b.x, a.x);
+    let dy = sub(b.y, a.y);
+    return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));
 }
 
 struct Points {
@@ -99,9 +70,9 @@ fn weber_points(net: Net, faces: Faces, is_gregory: bool, surface: Surface) -> P
         let u = surface.u + k / 3u * (u_size(surface) / 2u);
         let v = surface.v + k % 3u * (v_size(surface) / 2u);
         if is_gregory {
-            points.at[k] = point_at(weber_net_at(faces, net, u, v), u, v);
+            points.at[k] = position_at(net_at(faces, net, u, v), u, v);
         } else {
-            points.at[k] = point_at(net, u, v);
+            points.at[k] = position_at(net, u, v);
         }
     }
     return points;

@@ -2,7 +2,8 @@
 //! none left.
 
 use micropoly_core::abi::{
-    Control, Draw, Group, LOCAL_BATCHES, LOCAL_DRAWS, LOCAL_STACK, Limits, MAX_SPLITS, PARAM_ONE, Surface,
+    Control, Draw, Group, LOCAL_BATCHES, LOCAL_DRAWS, LOCAL_STACK, Limits, MAX_RATE, MAX_SPLITS, PARAM_ONE,
+    Surface,
 };
 use micropoly_core::kernel::balance;
 use micropoly_core::stage::Items;
@@ -40,7 +41,7 @@ fn surface_of_level(random: &mut fastrand::Rng, level: u32) -> Surface {
     let mut start = |level: u32| random.u32(0..1 << level) * (PARAM_ONE >> level);
     let at = [start(along_u), start(level - along_u)];
     let patch_id = random.u32(0..PATCHES);
-    descendant(random, patch_id, at, [along_u, level - along_u])
+    descendant(random, patch_id, at, [along_u, level - along_u], MAX_RATE)
 }
 
 /// A stack of so many surfaces, of any levels at which it is safe.

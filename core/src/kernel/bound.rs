@@ -276,7 +276,7 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
 #[inline(always)]
 fn pixels_of(frame: &Frame, hull: &Hull) -> PixelBox {
     let nearest = hull.nearest();
-    if nearest < frame.near {
+    if nearest < frame.near || frame.flags & FLAG_WHOLE != 0 {
         return PixelBox::whole(frame);
     }
     let points = measured(frame, &hull.part);
