@@ -293,7 +293,7 @@ static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
 // The pixels that drawing the surface inside a hull can touch.
 static PixelBox pixels_of(__constant Frame *frame, const Hull *hull) {
     const float nearest = nearest_of(frame->zero, hull);
-    if (nearest < frame->near) {
+    if (nearest < frame->near || (frame->flags & FLAG_WHOLE) != 0u) {
         return whole_image(frame);
     }
     Net points;

@@ -119,16 +119,15 @@ fn border_vertex(surface: Surface, number: u32, index: u32, rate: u32) -> vec2<u
     let own = extent_of(surface, number);
     let side = side_of(surface, number);
     let is_live = side.steps == 0u;
-    // In units of steps: where the piece's vertices at or before both ends are, and the one nearest to this place. A
-    // live side is a piece of its own, with a vertex a step.
+    // The piece's vertices at or before both ends, and one between them: the grid has no fewer steps, so each of them
+    // is chosen. A live side is a piece of its own, with a vertex a step.
     let bits = select(side.bits, own.bits, is_live);
     let steps = select(side.steps, rate, is_live);
     let halved = bits - own.bits;
     let before = (own.start & ((1u << bits) - 1u)) >> own.bits;
     let low = (before * steps) >> halved;
     let high = ((before + 1u) * steps) >> halved;
-    let whole = rate << halved;
-    let step = (2u * (before * rate + index) * steps + whole) / (2u * whole);
+    let step = low + (2u * index * (high - low) + rate) / (2u * rate);
     let is_first = index == 0u || step <= low;
     if is_first || index == rate || step >= high {
         return corner_at(surface, select(last_corner(number), first_corner(number), is_first));

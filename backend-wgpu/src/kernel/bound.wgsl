@@ -121,7 +121,7 @@ fn verdict(code: u32, pixels: vec4<i32>) -> Verdict {
 
 // The verdict, with sides and rates.
 fn divided_verdict(surface: Surface, lengths: Lengths, found: Verdict) -> Verdict {
-    let sides = divide(surface, lengths);
+    let sides = divide(surface, lengths, found.code);
     let plain = with_sides(found, sides, vec2<u32>(0u));
     if plain.code == SPLIT_U || plain.code == SPLIT_V {
         return plain;

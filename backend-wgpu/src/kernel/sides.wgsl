@@ -23,25 +23,26 @@ fn polygon(a: f32, b: f32, c: f32) -> f32 {
 
 // Steps of a line that is so long on screen.
 fn steps_of(length: f32) -> u32 {
-    let steps = 0 - floor(neg(mul(length, frame.density)));
-    let most = i32(frame.rate);
-    return u32(select(select(steps, most, steps > most), 1, steps < 1));
+    let steps = clamp(mul(length, frame.density), 1.0, float(i32(frame.rate)));
+    return u32(0 - floor(neg(steps)));
 }
 
-// How the sides of a surface are divided, packed: as they were, unless they are live and short enough.
-fn divide(surface: Surface, lengths: Lengths) -> vec4<u32> {
+// How the sides of a surface are divided, packed: as they were, unless they are live and short enough; or long, but
+// may not be halved any more.
+fn divide(surface: Surface, lengths: Lengths, code: u32) -> vec4<u32> {
+    let is_last = code == DRAW_LIMITED;
     let known = sides_of(surface);
     let bits = PARAM_BITS - vec2<u32>(u_level(surface), v_level(surface));
     return vec4<u32>(
-        divide_side(known.x, lengths.sides.x, bits.x),
-        divide_side(known.y, lengths.sides.y, bits.x),
-        divide_side(known.z, lengths.sides.z, bits.y),
-        divide_side(known.w, lengths.sides.w, bits.y),
+        divide_side(known.x, lengths.sides.x, bits.x, is_last),
+        divide_side(known.y, lengths.sides.y, bits.x, is_last),
+        divide_side(known.z, lengths.sides.z, bits.y, is_last),
+        divide_side(known.w, lengths.sides.w, bits.y, is_last),
     );
 }
 
-fn divide_side(known: u32, length: f32, bits: u32) -> u32 {
-    let is_short = length <= frame.bound && (frame.flags & FLAG_NAIVE) == 0u;
+fn divide_side(known: u32, length: f32, bits: u32, is_last: bool) -> u32 {
+    let is_short = (is_last || length <= frame.bound) && (frame.flags & FLAG_NAIVE) == 0u;
     let is_live = unpacked(known).steps == 0u;
     return select(known, packed(Side(steps_of(length), bits)), is_live && is_short);
 }
