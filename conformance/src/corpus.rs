@@ -24,14 +24,9 @@ use micropoly_core::stage::{Items, Stage};
 use crate::stages::Input;
 
 /// Inputs of one stage that a full comparison runs.
-pub const ROUNDS: u64 = 52;
+pub const ROUNDS: u64 = 40;
 /// From this one on the draw stage is given what chance seldom brings about.
 const RARE: u64 = 32;
-/// From this one on it is given Gregory patches whose lines seem short.
-const SHORT: u64 = 40;
-
-/// From this one on patches that look small reach behind the near plane.
-const CROSSING: u64 = 48;
 
 fn words<T: NoUninit>(entries: &[T]) -> Vec<u32> {
     bytemuck::cast_slice::<T, u8>(entries)
@@ -241,7 +236,13 @@ fn surface(random: &mut fastrand::Rng, patches: u32, splits: RangeInclusive<u32>
 
 /// The surface of a patch that starts at these parameters and was halved so often along each, in any order, while
 /// its sides were divided somehow, into up to `most` steps.
-fn descendant(random: &mut fastrand::Rng, patch_id: u32, at: [u32; 2], levels: [u32; 2], most: u32) -> Surface {
+fn descendant(
+    random: &mut fastrand::Rng,
+    patch_id: u32,
+    at: [u32; 2],
+    levels: [u32; 2],
+    most: u32,
+) -> Surface {
     let mut surface = Surface::root(patch_id);
     let seldom = [2, 8, u32::MAX][random.usize(0..3)];
     while [surface.u_level(), surface.v_level()] != levels {
@@ -297,52 +298,7 @@ fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
     record
 }
 
-/// A surface that ends at half or a quarter of both parameters.
-fn near_middle(random: &mut fastrand::Rng, most: u32) -> Surface {
-    let levels = [random.u32(2..=4), random.u32(2..=4)];
-    let [u, v] = levels.map(|level| (PARAM_ONE >> [1, 1, 1, 2][random.usize(0..4)]) - (PARAM_ONE >> level));
-    let patch_id = random.u32(0..PATCHES);
-    descendant(random, patch_id, [u, v], levels, most)
-}
-
-/// A Gregory patch whose line v = 1/2, or u = 1/2, seems straight and short, because the control points of the net
-/// that follows the blends along it are, though its middle is far away.
-fn short(random: &mut fastrand::Rng) -> [Patch; 2] {
-    let [mut patch, mut record] = [Patch::default(); 2];
-    let (along_u, far) = (random.bool(), [0.3, 4.0][random.usize(0..2)] * (random.f32() * 2.0 - 1.0));
-    let (long, wide) = (0.1 * random.f32(), 0.1 + 0.4 * random.f32());
-    let [x, y, z] = [0, 1, 2].map(|_| random.f32() * 2.0 - 1.0);
-    for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
-        let k = if along_u { 4 * i + j } else { 4 * j + i };
-        patch.x[k] = x + i as f32 * long;
-        patch.y[k] = y + (j as f32 / 1.5 - 1.0) * wide;
-        // The net has shares of 7/9 along the line.
-        let away = if j % 3 == 0 { -7.0 / 3.0 } else { 0.5 };
-        patch.z[k] = z + i as f32 * long + if i % 3 == 0 { 0.0 } else { away * far };
-    }
-    for l in 0..8 {
-        let at = INNER[l % 4];
-        (record.x[l], record.y[l]) = (patch.x[at], patch.y[at]);
-        let i = if along_u { at / 4 } else { at % 4 };
-        record.z[l] = z + i as f32 * long + if (l < 4) == along_u { far } else { 0.0 };
-    }
-    [patch, record]
-}
-
 const IDENTITY: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-
-/// From two units away, so that z is up in the image.
-const ASIDE: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, -2.0];
-
-fn short_patches(random: &mut fastrand::Rng) -> Vec<Patch> {
-    let (mut patches, records): (Vec<Patch>, Vec<Patch>) =
-        (0..PATCHES).map(|_| short(random)).map(|[patch, record]| (patch, record)).unzip();
-    for (patch, place) in patches.iter_mut().zip(PATCHES..) {
-        patch.faces = place;
-    }
-    patches.extend(records);
-    patches
-}
 
 /// A bent patch some pixels wide that begins before the near plane and ends beyond it: in eye space.
 fn crossing(random: &mut fastrand::Rng, frame: &Frame) -> Patch {
@@ -358,13 +314,18 @@ fn crossing(random: &mut fastrand::Rng, frame: &Frame) -> Patch {
 }
 
 fn bounds(random: &mut fastrand::Rng) -> Parts {
-    let (frame, objects, patches) = scene(random);
+    let (frame, mut objects, mut patches) = scene(random);
+    if random.u8(0..4) == 0 {
+        patches = (0..PATCHES).map(|_| crossing(random, &frame)).collect();
+        objects.iter_mut().for_each(|object| object.to_eye = IDENTITY);
+    }
     let (base, held) = (random.u32(0..300), random.u32(0..2000));
     let roots = random.u32(0..=PATCHES);
     let next_root = random.u32(roots..=PATCHES);
     let taken = roots + held;
     let deepest = [4, 12, 40][random.usize(0..3)];
-    let stack: Vec<Surface> = (0..base + held).map(|_| surface(random, PATCHES, 0..=deepest, MAX_RATE)).collect();
+    let stack: Vec<Surface> =
+        (0..base + held).map(|_| surface(random, PATCHES, 0..=deepest, MAX_RATE)).collect();
     let control = Control { base, taken, roots, next_root, stack: base + held, ..Control::default() };
     let room = (taken + random.u32(1..100)) as usize;
     let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
@@ -391,7 +352,11 @@ fn batch(random: &mut fastrand::Rng) -> (Control, Vec<Surface>, Vec<Verdict>) {
     };
     let verdict = |surface: &Surface| {
         let code = code(random);
-        Verdict { columns: random.u32(..), rows: random.u32(..), ..divided(random, *surface, code, 3, MAX_RATE) }
+        Verdict {
+            columns: random.u32(..),
+            rows: random.u32(..),
+            ..divided(random, *surface, code, 3, MAX_RATE)
+        }
     };
     let verdicts = surfaces.iter().map(verdict).collect();
     let before = Control { base: random.u32(0..1000), taken, waiting: random.u32(0..500), ..control(random) };
@@ -442,17 +407,9 @@ fn ribbons(frame: &Frame, object: &mut Object) {
 }
 
 fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
-    let (mut frame, mut objects, mut patches) = scene(random);
+    let (mut frame, mut objects, patches) = scene(random);
     let mut splits = [0..=3, 4..=8, 7..=14][random.usize(0..3)].clone(); // the large ones hide the small ones
-    if round >= CROSSING {
-        patches = (0..PATCHES).map(|_| crossing(random, &frame)).collect();
-        objects.iter_mut().for_each(|object| object.to_eye = IDENTITY);
-        (frame.rate, frame.flags) = (1 << (round % 4), 0);
-    } else if round >= SHORT {
-        patches = short_patches(random);
-        objects.iter_mut().for_each(|object| object.to_eye = ASIDE);
-        (frame.rate, frame.flags) = (1 << (round % 2), 0);
-    } else if round >= RARE {
+    if round >= RARE {
         splits = rarely(&mut frame, round);
         if round % 4 == 2 {
             (splits, frame.rate) = (0..=0, 1);
@@ -461,22 +418,13 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     }
     // Whatever is not culled is drawn, however large; but Weber's rules cull what is at the deepest level.
     frame.levels = if frame.flags & FLAG_WEBER == 0 { 1 } else { MAX_LEVELS };
-    // Now and then a neighbour may be larger: seams.
-    frame.bound =
-        if round >= SHORT { [3.0, 8.0][random.usize(0..2)] } else { [4.0, 12.0, 40.0][random.usize(0..3)] };
-    if round >= CROSSING {
-        frame.bound = 60.0; // whoever looks at a border alone takes it for short
-    }
+    frame.bound = [4.0, 12.0, 40.0][random.usize(0..3)];
     // Fewer than there are tiles, some, more than are looked at at once.
-    let most = if round >= SHORT { 200 } else { [3, 60, 60, 200][random.usize(0..4)] };
+    let most = [3, 60, 60, 200][random.usize(0..4)];
     let mut draws = Vec::new();
     for _ in 0..400 {
         let steps = frame.rate;
-        let mut surface = if round >= SHORT {
-            near_middle(random, steps)
-        } else {
-            surface(random, PATCHES, splits.clone(), steps)
-        };
+        let mut surface = surface(random, PATCHES, splits.clone(), steps);
         if frame.flags & FLAG_WEBER != 0 {
             surface.borders = [0; 4]; // by those rules no side is ever divided
         }
@@ -488,8 +436,6 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
             }
         }
     }
-    // Sides were divided with no regard to the frame, whose rate is the largest there is.
-    frame.rate = draws.iter().fold(frame.rate, |most, draw| most.max(draw.rate_u()).max(draw.rate_v()));
     let waiting = random.u32(0..=draws.len() as u32);
     let control = Control { waiting, fresh: draws.len() as u32 - waiting, ..Control::default() };
     draws.push(Draw::default());
