@@ -154,6 +154,8 @@ impl Device for CpuDevice {
             (Stage::Balance, _) => local::balance(buffers),
             (Stage::Deal, Items::Groups(count)) => local::deal(buffers, count),
             (Stage::Draw, Items::Image { .. }) => stages::draw(&self.pool, threads, buffers),
+            (Stage::MeshPlaces, _) => stages::mesh_places(buffers),
+            (Stage::Mesh, Items::Count(count)) => stages::mesh(&self.pool, buffers, count),
             (Stage::Flush, _) => stages::flush(buffers),
             (Stage::KnownAnswers, Items::Count(count)) => stages::known_answers(buffers, count),
             _ => Err(CpuError::Bindings { stage: stage.name() }),

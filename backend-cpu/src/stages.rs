@@ -3,12 +3,14 @@
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
 use micropoly_core::abi::{
-    Colour, Control, Draw, Frame, Limits, Object, Patch, Question, Sample, Slot, Surface, Verdict,
+    Colour, Control, Draw, Frame, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Sample,
+    Slot, Surface, Verdict,
 };
 use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
 use micropoly_core::kernel::dice::{Grid, dice};
 use micropoly_core::kernel::dice_gregory::dice_gregory;
 use micropoly_core::kernel::known_answers::answer as known_answer;
+use micropoly_core::kernel::mesh::{self, QUAD_INDICES};
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::scan::scan as scan_batch;
 use micropoly_core::kernel::shade::shade;
@@ -157,6 +159,56 @@ pub(crate) fn draw(
         );
     });
     Ok(())
+}
+
+pub(crate) fn mesh_places(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
+    let control = buffers[0].view::<Control>()?[0];
+    let draws = buffers[1].view::<Draw>()?;
+    let mut places = buffers[2].view_mut::<MeshPlace>()?;
+    let totals = &mut buffers[3].view_mut::<MeshTotals>()?[0];
+    *totals = mesh::places(&control, &draws, &mut places, *totals);
+    Ok(())
+}
+
+/// Draws that are meshed before they are put into their places.
+const MESH_CHUNK: usize = 4096;
+
+pub(crate) fn mesh(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>, count: u32) -> Result<(), CpuError> {
+    let frame = buffers[0].view::<Frame>()?[0];
+    let patches = buffers[1].view::<Patch>()?;
+    let draws = buffers[2].view::<Draw>()?;
+    let places = buffers[3].view::<MeshPlace>()?;
+    let (mut vertices, mut indices) = (buffers[4].view_mut::<MeshVertex>()?, buffers[5].view_mut::<u32>()?);
+    let (patches, draws, places) = (&*patches, &draws[..count as usize], &places[..count as usize]);
+    for (draws, places) in draws.chunks(MESH_CHUNK).zip(places.chunks(MESH_CHUNK)) {
+        let parts: Vec<_> = pool.install(|| {
+            let each = draws.par_iter().zip(places);
+            each.map_init(Grid::default, |grid, (draw, place)| mesh_one(&frame, patches, *draw, *place, grid))
+                .collect()
+        });
+        for (place, (own_vertices, own_indices)) in places.iter().zip(parts) {
+            vertices[place.vertex as usize..][..own_vertices.len()].copy_from_slice(&own_vertices);
+            indices[3 * place.triangle as usize..][..own_indices.len()].copy_from_slice(&own_indices);
+        }
+    }
+    Ok(())
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi1+bmi2+lzcnt+popcnt",
+    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
+))]
+fn mesh_one(
+    frame: &Frame,
+    patches: &[Patch],
+    draw: Draw,
+    place: MeshPlace,
+    grid: &mut Grid,
+) -> (Vec<MeshVertex>, Vec<u32>) {
+    let mut vertices = vec![MeshVertex::default(); draw.vertices() as usize];
+    let mut indices = vec![0; draw.triangles() as usize * QUAD_INDICES / 2];
+    mesh::mesh(frame, patches, draw, place, grid, &mut vertices, &mut indices);
+    (vertices, indices)
 }
 
 /// What is to be drawn.

@@ -10,12 +10,13 @@ use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
     CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, Limits,
-    MAX_LEVELS, MAX_RATE, MAX_SPLITS, Object, PARAM_BITS, PARAM_ONE, Patch, SPLIT_U, SPLIT_V, Sample, Shared,
-    Slot, Surface, Verdict,
+    MAX_LEVELS, MAX_RATE, MAX_SPLITS, MeshPlace, MeshTotals, MeshVertex, Object, PARAM_BITS, PARAM_ONE,
+    Patch, SPLIT_U, SPLIT_V, Sample, Shared, Slot, Surface, Verdict,
 };
 use micropoly_core::border::{SIDES, Side};
 use micropoly_core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::kernel::bound::bound_any;
+use micropoly_core::kernel::mesh;
 use micropoly_core::kernel::scan::scan;
 use micropoly_core::known::question;
 use micropoly_core::patch::gregory::INNER;
@@ -52,6 +53,8 @@ pub fn input(stage: Stage, round: u64) -> Input {
         Stage::Balance => groups::balance(&mut random),
         Stage::Deal => groups::deal(&mut random),
         Stage::Draw => draws(&mut random, round),
+        Stage::MeshPlaces => mesh_places(&mut random),
+        Stage::Mesh => meshes(&mut random),
         Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
         Stage::KnownAnswers => known(&mut random),
     };
@@ -71,6 +74,8 @@ const fn number(stage: Stage) -> u64 {
         Stage::Local => 8,
         Stage::Balance => 9,
         Stage::Deal => 10,
+        Stage::MeshPlaces => 11,
+        Stage::Mesh => 12,
     }
 }
 
@@ -452,6 +457,55 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
         empty::<Colour>(pixels),
     ];
     (Items::Image { width, height, rate }, buffers)
+}
+
+/// Draws of any patches, at any rates, and where they lie in a mesh behind `before`.
+fn placed(
+    random: &mut fastrand::Rng,
+    count: u32,
+    before: MeshTotals,
+) -> (Vec<Draw>, Vec<MeshPlace>, MeshTotals) {
+    let draw = |_| {
+        let surface = surface(random, PATCHES, 0..=18, MAX_RATE);
+        let verdict = divided(random, surface, DRAW, 3, MAX_RATE);
+        let surface = surface.divided(verdict);
+        let least = |first: usize| surface.steps_needed(first).max(surface.steps_needed(first + 1));
+        let rates = [random.u32(1..=MAX_RATE).max(least(0)), random.u32(1..=MAX_RATE).max(least(2))];
+        let sides = SIDES.map(|side| surface.side(side));
+        Draw::new(surface, Verdict { code: DRAW, ..Verdict::default() }.with_sides(sides, rates))
+    };
+    let draws: Vec<Draw> = (0..count).map(draw).collect();
+    let mut places = vec![MeshPlace::default(); draws.len()];
+    let control = Control { waiting: count, ..Control::default() };
+    let totals = mesh::places(&control, &draws, &mut places, before);
+    (draws, places, totals)
+}
+
+fn mesh_places(random: &mut fastrand::Rng) -> Parts {
+    let count = [random.u32(0..4), random.u32(0..3000)][random.usize(0..2)];
+    let before = MeshTotals { vertices: random.u32(..), triangles: random.u32(..) };
+    let (mut draws, places, _) = placed(random, count, before);
+    let waiting = random.u32(0..=count);
+    let control = Control { waiting, fresh: count - waiting, ..control(random) };
+    draws.push(Draw::default());
+    let places = empty::<MeshPlace>(places.len() + 1);
+    (Items::Count(1), vec![words(&[control]), words(&draws), places, words(&[before])])
+}
+
+fn meshes(random: &mut fastrand::Rng) -> Parts {
+    let (frame, _, patches) = scene(random);
+    let before = MeshTotals { vertices: random.u32(0..50), triangles: random.u32(0..50) };
+    let count = random.u32(1..60);
+    let (draws, places, totals) = placed(random, count, before);
+    let buffers = vec![
+        words(&[frame]),
+        words(&patches),
+        words(&draws),
+        words(&places),
+        empty::<MeshVertex>(totals.vertices as usize + 1),
+        empty::<u32>(3 * totals.triangles as usize + 1),
+    ];
+    (Items::Count(count), buffers)
 }
 
 /// Nothing, or something that was drawn before at any depth.

@@ -475,6 +475,34 @@ shared_structs! {
         groups: u32,
     }
 
+    /// A vertex of a mesh. Vertices at the same place of a common border have the same position, bit for bit.
+    struct MeshVertex {
+        /// Position in the space of the patch's object.
+        position: [f32; 3],
+        /// Unit normal in that space; outwards is where u runs to the right and v upwards.
+        normal: [f32; 3],
+        /// u and v within the patch, from 0 to 1.
+        uv: [f32; 2],
+        /// Index of the patch.
+        patch_id: u32,
+    }
+
+    /// Where the mesh of one draw goes.
+    struct MeshPlace {
+        /// Its first vertex.
+        vertex: u32,
+        /// Its first triangle.
+        triangle: u32,
+    }
+
+    /// How large a mesh is so far.
+    struct MeshTotals {
+        /// Its vertices.
+        vertices: u32,
+        /// Its triangles, those included that have collapsed.
+        triangles: u32,
+    }
+
     /// The nearest micropolygon at one sample of the image. All zero: nothing there.
     struct Sample {
         /// Bits of 1 / distance along the view axis: larger is nearer, 0 is infinitely far.

@@ -37,3 +37,4 @@ pub mod render;
 pub mod schedule;
 pub mod stage;
 pub mod surface;
+pub mod tessellate;

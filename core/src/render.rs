@@ -71,16 +71,16 @@ impl Counts {
 /// The buffers of one frame.
 #[derive(Debug)]
 pub struct Buffers<B> {
-    frame: B,
-    objects: B,
-    patches: B,
+    pub(crate) frame: B,
+    pub(crate) objects: B,
+    pub(crate) patches: B,
     limits: B,
-    control: B,
+    pub(crate) control: B,
     stack: B,
     batch: B,
     verdicts: B,
     slots: B,
-    draws: B,
+    pub(crate) draws: B,
     groups: B,
     dealt: B,
     fresh: B,
@@ -213,11 +213,27 @@ impl FramePlan {
         buffers: &mut Buffers<D::Buffer>,
         progress: impl FnMut(&Counts),
     ) -> Result<Counts, D::Error> {
+        self.run_into(device, buffers, progress, |device, b| self.draw(device, b))
+    }
+
+    /// As [`FramePlan::run`]; `draw` does something with all that lies in the draw buffer.
+    pub(crate) fn run_into<D: Device>(
+        &self,
+        device: &mut D,
+        buffers: &mut Buffers<D::Buffer>,
+        progress: impl FnMut(&Counts),
+        draw: impl FnMut(&mut D, &Buffers<D::Buffer>) -> Result<(), D::Error>,
+    ) -> Result<Counts, D::Error> {
         device.write(&buffers.control, &[Control::default()])?;
         match self.sizes.scheduler {
-            Scheduler::Breadth => self.run_by_level(device, buffers, progress),
-            _ => self.run_by_batch(device, buffers, progress),
+            Scheduler::Breadth => self.run_by_level(device, buffers, progress, draw),
+            _ => self.run_by_batch(device, buffers, progress, draw),
         }
+    }
+
+    /// Surfaces that the draw buffer holds; with BREADTH it grows, so a mesh is not made that way.
+    pub(crate) const fn draws_at_once(&self) -> u64 {
+        self.sizes.draw_entries()
     }
 
     fn run_by_batch<D: Device>(
@@ -225,6 +241,7 @@ impl FramePlan {
         device: &mut D,
         buffers: &Buffers<D::Buffer>,
         mut progress: impl FnMut(&Counts),
+        mut draw: impl FnMut(&mut D, &Buffers<D::Buffer>) -> Result<(), D::Error>,
     ) -> Result<Counts, D::Error> {
         let mut counts = Counts::default();
         let mut schedule = Bounded::new(self.sizes.patches, self.sizes.batches_a_draw());
@@ -234,7 +251,10 @@ impl FramePlan {
                     self.batch(device, buffers)?;
                     counts.batches += 1;
                 }
-                Step::Draw => self.draw(device, buffers)?,
+                Step::Draw => {
+                    draw(device, buffers)?;
+                    flush(device, buffers)?;
+                }
                 Step::Ask => {
                     let control = ask(device, buffers)?;
                     counts.add(&control);
@@ -275,6 +295,7 @@ impl FramePlan {
         device: &mut D,
         buffers: &mut Buffers<D::Buffer>,
         mut progress: impl FnMut(&Counts),
+        mut draw: impl FnMut(&mut D, &Buffers<D::Buffer>) -> Result<(), D::Error>,
     ) -> Result<Counts, D::Error> {
         let mut counts = Counts::default();
         let mut limits = self.limits();
@@ -289,7 +310,8 @@ impl FramePlan {
             self.make_room(device, buffers, &mut limits, count, control.stack)?;
             run_batch(device, buffers)?;
             counts.batches += 1;
-            self.draw(device, buffers)?;
+            draw(device, buffers)?;
+            flush(device, buffers)?;
         }
     }
 
@@ -349,11 +371,13 @@ impl FramePlan {
         let image =
             Items::Image { width: self.sizes.width, height: self.sizes.height, rate: self.frame.rate };
         let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
-        if self.draws {
-            device.dispatch(Stage::Draw, image, &draw)?;
-        }
-        device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
+        if self.draws { device.dispatch(Stage::Draw, image, &draw) } else { Ok(()) }
     }
+}
+
+/// Forgets what lies in the draw buffer.
+fn flush<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
+    device.dispatch(Stage::Flush, Items::Count(1), &[&b.control])
 }
 
 /// Most bytes that the buffers which grow hold at once while those that must grow do so, one after the other: a

@@ -2,8 +2,8 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Group, Layout, Limits, Object, Patch, Question, Sample, Shared, Slot,
-    Surface, Verdict,
+    Colour, Control, Draw, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch,
+    Question, Sample, Shared, Slot, Surface, Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -75,6 +75,10 @@ pub enum Stage {
     /// Dice, shade and sample each drawn surface, fused: [`crate::kernel::dice`],
     /// [`crate::kernel::shade`], [`crate::kernel::sample`].
     Draw,
+    /// Places of all drawn surfaces in a mesh: [`crate::kernel::mesh::places`].
+    MeshPlaces,
+    /// Dice each drawn surface into a mesh: [`crate::kernel::mesh::mesh`].
+    Mesh,
     /// Empties the draw buffer: [`crate::kernel::take::flush`].
     Flush,
     /// Does the device compute as it must? [`crate::kernel::known_answers`].
@@ -83,7 +87,7 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Take,
         Self::Bound,
         Self::Scan,
@@ -92,6 +96,8 @@ impl Stage {
         Self::Balance,
         Self::Deal,
         Self::Draw,
+        Self::MeshPlaces,
+        Self::Mesh,
         Self::Flush,
         Self::KnownAnswers,
     ];
@@ -108,6 +114,8 @@ impl Stage {
             Self::Balance => "balance",
             Self::Deal => "deal",
             Self::Draw => "draw",
+            Self::MeshPlaces => "mesh_places",
+            Self::Mesh => "mesh",
             Self::Flush => "flush",
             Self::KnownAnswers => "known_answers",
         }
@@ -193,6 +201,28 @@ impl Stage {
                         read::<Draw>("draws"),
                         write::<Sample>("samples"),
                         write::<Colour>("colours"),
+                    ]
+                }
+            }
+            Self::MeshPlaces => {
+                const {
+                    &[
+                        read::<Control>("control"),
+                        read::<Draw>("draws"),
+                        write::<MeshPlace>("places"),
+                        write::<MeshTotals>("totals"),
+                    ]
+                }
+            }
+            Self::Mesh => {
+                const {
+                    &[
+                        read::<Frame>("frame"),
+                        read::<Patch>("patches"),
+                        read::<Draw>("draws"),
+                        read::<MeshPlace>("places"),
+                        write::<MeshVertex>("vertices"),
+                        write::<u32>("indices"),
                     ]
                 }
             }

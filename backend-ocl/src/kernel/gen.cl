@@ -159,6 +159,23 @@ typedef struct {
 } Limits;
 
 typedef struct {
+    float position[3];
+    float normal[3];
+    float uv[2];
+    uint patch_id;
+} MeshVertex;
+
+typedef struct {
+    uint vertex;
+    uint triangle;
+} MeshPlace;
+
+typedef struct {
+    uint vertices;
+    uint triangles;
+} MeshTotals;
+
+typedef struct {
     uint depth;
     uint patch_id;
     uint u;

@@ -158,6 +158,23 @@ struct Limits {
     groups: u32,
 }
 
+struct MeshVertex {
+    position: array<f32, 3>,
+    normal: array<f32, 3>,
+    uv: array<f32, 2>,
+    patch_id: u32,
+}
+
+struct MeshPlace {
+    vertex: u32,
+    triangle: u32,
+}
+
+struct MeshTotals {
+    vertices: u32,
+    triangles: u32,
+}
+
 struct Sample {
     depth: u32,
     patch_id: u32,

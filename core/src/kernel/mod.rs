@@ -10,6 +10,7 @@ pub mod dice;
 pub mod dice_gregory;
 pub mod known_answers;
 pub mod local;
+pub mod mesh;
 pub mod project;
 pub mod quads;
 pub mod sample;
