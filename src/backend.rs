@@ -140,6 +140,18 @@ pub fn render<F: FnMut(&Counts)>(
     Ok(Rendering { backend, notes, ..rendering })
 }
 
+/// Gives a job to the first device that the options mean and that opens; and what a user should be told about that.
+pub(crate) fn on_first_device<J: Job>(
+    options: &RenderOptions,
+    job: impl Fn() -> J,
+) -> Result<(J::Output, Vec<String>)> {
+    let (candidates, mut notes) = options.backend.candidates(options.device.as_deref())?;
+    let (output, refusals) =
+        first_that_opens(&candidates, |entry| with_device(entry, options.threads, job()))?;
+    notes.extend(refusals);
+    Ok((output, notes))
+}
+
 /// What `attempt` makes of the first entry that it does not refuse, and why it refused those before.
 fn first_that_opens<T>(
     entries: &[DeviceEntry],

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use micropoly_core::abi::{Patch, Sample, Shared};
+use micropoly_core::abi::{Frame, Patch, Sample, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::camera::FrameOptions;
 use micropoly_core::memory::{DEFAULT_BATCH, Room, Sizes};
@@ -98,10 +98,8 @@ pub fn render_on<D: Device>(
 ) -> Result<Rendering> {
     let start = Instant::now();
     let DeviceScene { frame, objects, patches } = scene.for_device(&options.frame)?;
-    let room = room_on(&device, &options.frame);
-    let sizes = chosen_sizes(scene, options, room)?;
-    let notes = note_on(options, &sizes, room).into_iter().collect();
-    let plan = FramePlan::with_sizes(frame, sizes).map_err(Error::Plan)?.within(options.batch.budget());
+    let (plan, notes) = plan_on(&device, scene, options, frame)?;
+    let sizes = *plan.sizes();
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::on_device(&error);
     let mut buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
@@ -121,6 +119,20 @@ pub fn render_on<D: Device>(
         backend: options.backend,
         notes,
     })
+}
+
+/// The plan of a frame on a device, and what a user should be told about it.
+pub(crate) fn plan_on<D: Device>(
+    device: &D,
+    scene: &Scene,
+    options: &RenderOptions,
+    frame: Frame,
+) -> Result<(FramePlan, Vec<String>)> {
+    let room = room_on(device, &options.frame);
+    let sizes = chosen_sizes(scene, options, room)?;
+    let notes = note_on(options, &sizes, room).into_iter().collect();
+    let plan = FramePlan::with_sizes(frame, sizes).map_err(Error::Plan)?.within(options.batch.budget());
+    Ok((plan, notes))
 }
 
 /// Sizes with the largest batch that was asked for and that fits the budget and the device.

@@ -9,7 +9,9 @@ use micropoly::core::camera::{Borders, Material};
 use micropoly::core::num::dot3;
 use micropoly::generate::{Generator, generate};
 use micropoly::mesh::{Format, Mesh};
-use micropoly::{BezierPatch, Camera, FrameOptions, RenderOptions, Scene, SceneObject, render};
+use micropoly::{
+    Backend, Batch, BezierPatch, Camera, FrameOptions, RenderOptions, Scene, SceneObject, Scheduler, render,
+};
 
 const CAMERAS: u64 = 200;
 
@@ -75,11 +77,39 @@ fn small() -> FrameOptions {
     FrameOptions { width: 96, height: 64, whole: true, ..FrameOptions::default() }
 }
 
+fn mesh_of(scene: &Scene, frame: &FrameOptions) -> Mesh {
+    let options = RenderOptions { frame: *frame, backend: Backend::Cpu, ..RenderOptions::default() };
+    Mesh::of(scene, &options).expect("a mesh").0
+}
+
+#[test]
+fn every_backend_batch_and_scheduler_gives_the_same_mesh() {
+    for name in ["gregory", "teapot"] {
+        let scene = Scene::load(format!("scenes/{name}.toml")).expect("a scene");
+        let frame = FrameOptions { size: 3.0, bound: 48.0, ..small() };
+        let expected = mesh_of(&scene, &frame);
+        let backends = Backend::ALL.into_iter().filter(|backend| backend.is_built());
+        for backend in backends {
+            for (scheduler, batch) in
+                [(Scheduler::Adaptive, 100), (Scheduler::Bounded, 4096), (Scheduler::Local, 64)]
+            {
+                let batch = Batch::Surfaces(batch);
+                let options = RenderOptions { frame, backend, scheduler, batch, ..RenderOptions::default() };
+                let (mesh, _) = Mesh::of(&scene, &options).expect("a mesh");
+                assert!(mesh == expected, "{name}: another mesh on {backend:?} by {}", scheduler.name());
+            }
+        }
+        let options = RenderOptions { frame, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
+        let refusal = Mesh::of(&scene, &options).expect_err("no bound");
+        assert!(refusal.to_string().contains("breadth"), "{refusal}");
+    }
+}
+
 fn assert_closed(mut scene: Scene, options: &FrameOptions) {
     let mut random = fastrand::Rng::with_seed(70);
     for round in 0..CAMERAS {
         (scene.camera, _) = look_around(&scene, &mut random);
-        let mesh = Mesh::of(&scene, options).expect("a mesh");
+        let mesh = mesh_of(&scene, options);
         assert_eq!((mesh.open_edges(), mesh.limited), (0, 0), "camera {round}");
         assert!(mesh.triangles.len() > 100, "camera {round}");
     }
@@ -125,7 +155,7 @@ fn the_teapot_is_open_at_its_rims_only() {
     let mut random = fastrand::Rng::with_seed(71);
     for round in 0..CAMERAS {
         (scene.camera, _) = look_around(&scene, &mut random);
-        let mesh = Mesh::of(&scene, &small()).expect("a mesh");
+        let mesh = mesh_of(&scene, &small());
         let mut open: HashMap<_, (i32, bool)> = HashMap::new();
         for triangle in &mesh.triangles {
             for k in 0..3 {
@@ -214,7 +244,7 @@ fn objects_are_placed_in_the_world_and_normals_point_outwards() {
     let SceneObject { patches, .. } = scene.objects.remove(0);
     scene.objects = vec![SceneObject { patches, gregory: Vec::new(), to_world, material }];
     (scene.camera, _) = look_around(&scene, &mut fastrand::Rng::with_seed(74));
-    let mesh = Mesh::of(&scene, &small()).expect("a mesh");
+    let mesh = mesh_of(&scene, &small());
     assert_eq!(mesh.open_edges(), 0);
     let vector = |at: u32, list: &[[f32; 3]]| Vec3::from(list[at as usize]);
     let mut agree = 0;
@@ -242,7 +272,7 @@ fn tessellate(output: &Path, more: &[&str]) -> (i32, String) {
 fn files_hold_the_mesh() {
     let folder = tempfile::tempdir().expect("a folder");
     let options = FrameOptions { size: 12.0, bound: 192.0, whole: true, ..FrameOptions::default() };
-    let mesh = Mesh::of(&Scene::load("scenes/gregory.toml").expect("a scene"), &options).expect("a mesh");
+    let mesh = mesh_of(&Scene::load("scenes/gregory.toml").expect("a scene"), &options);
     for end in ["obj", "ply", "glb"] {
         let path = folder.path().join(format!("mesh.{end}"));
         let (code, text) = tessellate(&path, &["--micropolygon-size=12"]);

@@ -41,6 +41,8 @@ pub enum PlanError {
         /// Largest size in bytes.
         limit: u64,
     },
+    /// BREADTH cannot make a mesh: its buffers of draws have no bound.
+    BreadthMesh,
     /// A buffer ran full although its size was proven: smaller buffers were passed than the plan asked for.
     Overflow {
         /// Name of the buffer.
@@ -74,6 +76,9 @@ impl fmt::Display for PlanError {
                     f,
                     "the {buffer} buffer needs {bytes} bytes, but the device binds {limit} bytes at most at once"
                 )
+            }
+            Self::BreadthMesh => {
+                write!(f, "the breadth scheduler cannot make a mesh; use any other, the mesh is the same")
             }
             Self::Overflow { buffer, excess } => {
                 write!(f, "the {buffer} buffer is {excess} entries too small")

@@ -231,7 +231,7 @@ impl FramePlan {
         }
     }
 
-    /// Surfaces that the draw buffer holds; with BREADTH it grows, so a mesh is not made that way.
+    /// Surfaces that the draw buffer holds; with BREADTH it grows.
     pub(crate) const fn draws_at_once(&self) -> u64 {
         self.sizes.draw_entries()
     }

@@ -8,6 +8,7 @@ use crate::backend::Device;
 use crate::error::PlanError;
 use crate::kernel::mesh::QUAD_INDICES;
 use crate::render::{Buffers, Counts, FramePlan};
+use crate::schedule::Scheduler;
 use crate::stage::{Items, Stage};
 
 /// A mesh in the device's memory.
@@ -36,13 +37,16 @@ impl FramePlan {
     /// whole; its vertices are in the spaces of their objects.
     ///
     /// # Errors
-    /// What the device reports; [`PlanError::TooLarge`] if the mesh does not fit the device's largest buffer, or an
+    /// What the device reports; [`PlanError::BreadthMesh`]; [`PlanError::TooLarge`] if the mesh does not fit the device's largest buffer, or an
     /// index 32 bits.
     pub fn tessellate<D: Device>(
         &self,
         device: &mut D,
         buffers: &mut Buffers<D::Buffer>,
     ) -> Result<MeshBuffers<D::Buffer>, D::Error> {
+        if self.sizes().scheduler == Scheduler::Breadth {
+            return Err(PlanError::BreadthMesh.into());
+        }
         let places = device.allocate("places", MeshPlace::LAYOUT, self.draws_at_once())?;
         let own = device.allocate("totals", MeshTotals::LAYOUT, 1)?;
         let count = Meshing { places: &places, totals: &own, mesh: None };

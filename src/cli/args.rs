@@ -92,10 +92,26 @@ pub(crate) struct TessellateArguments {
     /// Count the edges that are not shared by two triangles.
     #[arg(long)]
     pub(crate) check: bool,
+    /// What to tessellate on. The mesh does not depend on it.
+    #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
+    backend: BackendChoice,
+    /// Number or part of the name of a device of the backend (see `micropoly devices`).
+    #[arg(long, value_name = "N|NAME")]
+    device: Option<String>,
 }
 
 impl TessellateArguments {
-    pub(crate) fn options(&self) -> FrameOptions {
+    pub(crate) fn options(&self) -> RenderOptions {
+        let device = self.device.clone();
+        RenderOptions {
+            frame: self.frame(),
+            backend: self.backend.into(),
+            device,
+            ..RenderOptions::default()
+        }
+    }
+
+    fn frame(&self) -> FrameOptions {
         let (width, height) = self.res;
         FrameOptions {
             width,

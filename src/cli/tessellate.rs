@@ -13,7 +13,10 @@ pub(crate) fn run(arguments: &TessellateArguments) -> Result<()> {
     let (path, format) = &arguments.output;
     check_folder(path)?;
     let scene = Scene::load(&arguments.scene)?;
-    let mesh = Mesh::of(&scene, &arguments.options())?;
+    let (mesh, notes) = Mesh::of(&scene, &arguments.options())?;
+    for note in notes {
+        eprintln!("note: {note}");
+    }
     mesh.save(path, *format)?;
     if mesh.limited > 0 {
         eprintln!(

@@ -1,14 +1,16 @@
 //! How long micropolygons are on screen: the measure of an adaptive dice rate.
 
-use micropoly_core::abi::Draw;
+use micropoly_core::abi::{CULL, DRAW, DRAW_LIMITED, Draw, Surface};
 use micropoly_core::camera::FrameOptions;
-use micropoly_core::kernel::dice::Grid;
+use micropoly_core::kernel::bound::bound_any;
+use micropoly_core::kernel::dice::{Grid, dice};
+use micropoly_core::kernel::dice_gregory::dice_gregory;
 use micropoly_core::patch::gregory::patch_count;
+use micropoly_core::patch::{Faces, Net};
 use serde::Serialize;
 
-use super::{dice_any, for_each_draw};
 use crate::error::Result;
-use crate::scene::Scene;
+use crate::scene::{DeviceScene, Scene};
 
 /// Classes of [`Histogram`] up to the target length; as many lie beyond it.
 const CLASSES: usize = 8;
@@ -35,9 +37,8 @@ impl Histogram {
         let seen = scene.for_device(options)?;
         let (mut out, mut grid) = (Self::default(), Box::new(Grid::default()));
         for patch in 0..patch_count(&seen.patches) as u32 {
-            let object = &seen.objects[seen.patches[patch as usize].object as usize];
-            for_each_draw(&seen, patch, |draw, _| {
-                dice_any(&seen, object, draw, &mut grid);
+            for_each_draw(&seen, patch, |draw| {
+                dice_any(&seen, draw, &mut grid);
                 out.add(draw, &grid, options.size);
             });
         }
@@ -83,5 +84,31 @@ impl Histogram {
         }
         let class = (length * CLASSES as f64).ceil() as usize;
         self.sides[class.saturating_sub(1).min(2 * CLASSES - 1)] += 1;
+    }
+}
+
+/// Everything that is drawn of a patch.
+fn for_each_draw(seen: &DeviceScene, patch: u32, mut each: impl FnMut(Draw)) {
+    let mut stack = vec![Surface::root(patch)];
+    while let Some(surface) = stack.pop() {
+        let verdict = bound_any(&seen.frame, &seen.objects, &seen.patches, surface);
+        match verdict.code {
+            CULL => {}
+            DRAW | DRAW_LIMITED => each(Draw::new(surface, verdict)),
+            _ => stack.extend(surface.halves(verdict)),
+        }
+    }
+}
+
+fn dice_any(seen: &DeviceScene, draw: Draw, grid: &mut Grid) {
+    let patch = &seen.patches[draw.patch_id as usize];
+    let object = &seen.objects[patch.object as usize];
+    let net = Net::in_eye_space(patch, object);
+    match patch.faces {
+        0 => dice(&net, &seen.frame, draw, grid),
+        record => {
+            let faces = Faces::in_eye_space(&seen.patches[record as usize], object);
+            dice_gregory(&net, &faces, &seen.frame, draw, grid);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes as meshes of triangles, as fine as the camera needs them: watertight where the patches are.
 //!
-//! Which vertices there are is what the renderer would draw, decided by the same functions; the mesh itself is
-//! evaluated in the space of each object and then moved to the world, so it does not shake with the camera.
+//! A device makes them in its own memory ([`micropoly_core::tessellate`]); here they are fetched, moved from the space
+//! of each object to the world, and put in an order that depends on nothing but the scene and its options.
 
 mod glb;
 pub mod lengths;
@@ -12,16 +12,16 @@ mod weld;
 use std::path::Path;
 
 use glam::{DAffine3, DMat3, Vec3};
-use micropoly_core::abi::{CULL, DRAW, DRAW_LIMITED, Draw, Frame, Object, PARAM_STEP, Surface};
-use micropoly_core::camera::FrameOptions;
-use micropoly_core::kernel::bound::bound_any;
-use micropoly_core::kernel::dice::{Grid, dice};
-use micropoly_core::kernel::dice_gregory::dice_gregory;
-use micropoly_core::patch::gregory::patch_count;
-use micropoly_core::patch::{Faces, Net};
+use micropoly_core::abi::{MeshVertex, Patch, Shared};
+use micropoly_core::backend::Device;
+use micropoly_core::render::FramePlan;
+use micropoly_core::tessellate::MeshBuffers;
 use rayon::prelude::*;
 
+use crate::backend::on_first_device;
+use crate::devices::Job;
 use crate::error::{Error, Result};
+use crate::render::{RenderOptions, plan_on};
 use crate::scene::{DeviceScene, Scene};
 
 /// Triangles of a scene, in world space. Of each patch a vertex is there once; vertices on the common edge of two
@@ -67,40 +67,48 @@ impl Format {
 }
 
 impl Mesh {
-    /// All of a scene, or with [`FrameOptions::whole`] unset what its camera can see.
+    /// All of a scene, or without [`micropoly_core::camera::FrameOptions::whole`] what its camera can see; and what a
+    /// user should be told about the choice of the device. The mesh does not depend on it, nor on batch and scheduler.
     ///
     /// # Errors
-    /// As [`Scene::for_device`]; [`Error::Scene`] if there are more vertices than an index can tell apart.
-    pub fn of(scene: &Scene, options: &FrameOptions) -> Result<Self> {
-        let seen = scene.for_device(options)?;
-        let patches = 0..patch_count(&seen.patches) as u32;
-        let parts: Vec<Part> = patches
-            .into_par_iter()
-            .map_init(|| Box::new(Grid::default()), |grid, patch| Part::of(&seen, scene, patch, grid))
-            .collect();
-        let mut mesh = Self::default();
-        for (patch, part) in (0..).zip(parts) {
-            mesh.append(patch, part)?;
-        }
-        Ok(mesh)
+    /// As [`crate::render()`]; [`Error::Plan`] if the mesh is larger than the device's largest buffer, or breadth-first.
+    pub fn of(scene: &Scene, options: &RenderOptions) -> Result<(Self, Vec<String>)> {
+        let (mesh, mut notes) = on_first_device(options, || Tessellate { scene, options })?;
+        let (mesh, own) = mesh?;
+        notes.extend(own);
+        Ok((mesh, notes))
     }
 
-    fn append(&mut self, patch: u32, part: Part) -> Result<()> {
-        let first = self.positions.len();
-        if first + part.positions.len() > u32::MAX as usize {
-            return Err(Error::scene(
-                "the mesh has more than 2³² vertices",
-                "choose a larger --micropolygon-size",
-            ));
+    /// From vertices and indices of a device.
+    fn new(scene: &Scene, patches: &[Patch], vertices: &[MeshVertex], indices: &[u32]) -> Self {
+        let triangles = indices.as_chunks::<3>().0;
+        let mut order: Vec<[&MeshVertex; 3]> = triangles
+            .par_iter()
+            .filter(|[a, b, _]| a != b)
+            .map(|corners| corners.map(|corner| &vertices[corner as usize]))
+            .collect();
+        order.par_sort_unstable_by_key(|corners| (corners[0].patch_id, corners.map(key)));
+        let places: Vec<Placed> = scene.objects.iter().map(|object| Placed::new(object.to_world)).collect();
+        let (mut mesh, mut known) = (Self::default(), weld::Numbers::default());
+        for corners in order {
+            let triangle = corners.map(|corner| {
+                let (number, is_new) = known.number((corner.patch_id, key(corner)));
+                if is_new {
+                    let object = patches[corner.patch_id as usize].object;
+                    mesh.put(corner, &places[object as usize]);
+                }
+                number
+            });
+            mesh.triangles.push(triangle);
         }
-        let first = first as u32;
-        self.patches.extend(part.positions.iter().map(|_| patch));
-        self.positions.extend(part.positions);
-        self.normals.extend(part.normals);
-        self.uvs.extend(part.uvs);
-        self.triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
-        self.limited += part.limited;
-        Ok(())
+        mesh
+    }
+
+    fn put(&mut self, vertex: &MeshVertex, place: &Placed) {
+        self.positions.push(place.point(vertex.position));
+        self.normals.push(place.normal(vertex.normal));
+        self.uvs.push(vertex.uv);
+        self.patches.push(vertex.patch_id);
     }
 
     /// Edges that are not shared by two triangles in opposite directions; 0 for a closed surface.
@@ -126,51 +134,56 @@ impl Mesh {
     }
 }
 
-/// The mesh of one patch.
-#[derive(Default)]
-struct Part {
-    positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    uvs: Vec<[f32; 2]>,
-    triangles: Vec<[u32; 3]>,
-    limited: u64,
+/// u and v, which order as they are: neither is negative.
+fn key(vertex: &MeshVertex) -> [u32; 2] {
+    vertex.uv.map(f32::to_bits)
 }
 
-impl Part {
-    fn of(seen: &DeviceScene, scene: &Scene, patch: u32, grid: &mut Grid) -> Self {
-        let own = &seen.patches[patch as usize];
-        let place = Placed::new(scene.objects[own.object as usize].to_world);
-        let (mut part, mut known) = (Self::default(), weld::Numbers::default());
-        for_each_draw(seen, patch, |draw, is_limited| {
-            part.limited += u64::from(is_limited);
-            dice_any(seen, &AS_IT_IS, draw, grid);
-            part.add(draw, grid, &place, &mut known);
-        });
-        part
-    }
+/// Tessellating a scene, as a job for any device.
+struct Tessellate<'a> {
+    scene: &'a Scene,
+    options: &'a RenderOptions,
+}
 
-    fn add(&mut self, draw: Draw, grid: &Grid, place: &Placed, known: &mut weld::Numbers<[u32; 2]>) {
-        let mut numbers = vec![0; grid.stride * grid.rows];
-        for (at, number) in numbers.iter_mut().enumerate() {
-            let uv = draw.vertex((at / grid.stride) as u32, (at % grid.stride) as u32);
-            let (found, is_new) = known.number(uv);
-            *number = found;
-            if is_new {
-                self.positions.push(place.point(grid.point(at)));
-                self.normals.push(place.normal(grid.unit_normal(at)));
-                self.uvs.push(uv.map(|t| t as f32 * PARAM_STEP));
-            }
-        }
-        for (row, column) in (0..grid.rows - 1).flat_map(|row| (0..grid.stride - 1).map(move |c| (row, c))) {
-            let a = row * grid.stride + column;
-            let [a, b, c, d] = [a, a + 1, a + grid.stride + 1, a + grid.stride].map(|at| numbers[at]);
-            let place = |corner: u32| self.positions[corner as usize];
-            let has_area = |[a, b, c]: &[u32; 3]| {
-                place(*a) != place(*b) && place(*b) != place(*c) && place(*c) != place(*a)
-            };
-            self.triangles.extend([[a, b, c], [a, c, d]].into_iter().filter(has_area));
-        }
+impl Job for Tessellate<'_> {
+    type Output = Result<(Mesh, Vec<String>)>;
+
+    fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
+        let Self { scene, options } = self;
+        let seen = scene.for_device(&options.frame)?;
+        let (plan, notes) = plan_on(&device, scene, options, seen.frame)?;
+        let mesh = fetch(&mut device, &plan, scene, &seen).map_err(|error| Error::on_device(&error))?;
+        Ok((mesh, notes))
     }
+}
+
+/// Vertices and indices that are fetched at once.
+const BLOCK: usize = 1 << 16;
+
+fn fetch<D: Device>(
+    device: &mut D,
+    plan: &FramePlan,
+    scene: &Scene,
+    seen: &DeviceScene,
+) -> std::result::Result<Mesh, D::Error> {
+    let mut buffers = plan.prepare(device, &seen.objects, &seen.patches)?;
+    let MeshBuffers { vertices, indices, totals, counts } = plan.tessellate(device, &mut buffers)?;
+    let vertices: Vec<MeshVertex> = read_all(device, &vertices, totals.vertices as usize)?;
+    let indices: Vec<u32> = read_all(device, &indices, 3 * totals.triangles as usize)?;
+    let mesh = Mesh::new(scene, &seen.patches, &vertices, &indices);
+    Ok(Mesh { limited: counts.depth_limited, ..mesh })
+}
+
+fn read_all<D: Device, T: Shared>(
+    device: &mut D,
+    buffer: &D::Buffer,
+    count: usize,
+) -> std::result::Result<Vec<T>, D::Error> {
+    let mut all = vec![T::zeroed(); count];
+    for (index, block) in all.chunks_mut(BLOCK).enumerate() {
+        device.read(buffer, (index * BLOCK) as u64, block)?;
+    }
+    Ok(all)
 }
 
 /// From the space of an object to the world.
@@ -193,40 +206,5 @@ impl Placed {
 
     fn normal(&self, normal: [f32; 3]) -> [f32; 3] {
         (self.normals * Vec3::from(normal).as_dvec3()).normalize_or_zero().as_vec3().to_array()
-    }
-}
-
-/// An object that leaves its points where they are.
-const AS_IT_IS: Object = Object {
-    to_eye: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
-    colour: [0.0; 3],
-    specular: 0.0,
-    gloss: 0,
-};
-
-/// Everything that is drawn of a patch, in the order of depth first, and whether it should have been split deeper.
-fn for_each_draw(seen: &DeviceScene, patch: u32, mut each: impl FnMut(Draw, bool)) {
-    let mut stack = vec![Surface::root(patch)];
-    while let Some(surface) = stack.pop() {
-        let verdict = bound_any(&seen.frame, &seen.objects, &seen.patches, surface);
-        match verdict.code {
-            CULL => {}
-            DRAW | DRAW_LIMITED => each(Draw::new(surface, verdict), verdict.code == DRAW_LIMITED),
-            _ => stack.extend(surface.halves(verdict)),
-        }
-    }
-}
-
-/// Dices a surface of any patch, seen as `object` is placed.
-fn dice_any(seen: &DeviceScene, object: &Object, draw: Draw, grid: &mut Grid) {
-    let patch = &seen.patches[draw.patch_id as usize];
-    let frame: &Frame = &seen.frame;
-    let net = Net::in_eye_space(patch, object);
-    match patch.faces {
-        0 => dice(&net, frame, draw, grid),
-        record => {
-            let faces = Faces::in_eye_space(&seen.patches[record as usize], object);
-            dice_gregory(&net, &faces, frame, draw, grid);
-        }
     }
 }
