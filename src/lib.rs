@@ -33,6 +33,8 @@ pub mod scene_file;
 pub mod stats;
 mod timed;
 
+#[cfg(feature = "wgpu")]
+pub use micropoly_backend_wgpu as backend_wgpu;
 pub use micropoly_core as core;
 
 pub use crate::backend::{Backend, render};

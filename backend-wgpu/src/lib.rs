@@ -15,3 +15,4 @@ pub use device::WgpuDevice;
 pub use error::WgpuError;
 pub use info::{DeviceInfo, devices};
 pub use kernels::{Edit, File, Kind, Which};
+pub use wgpu;

@@ -1,0 +1,249 @@
+//! Tessellates a scene on a GPU and draws the triangles there with an ordinary render pipeline: vertices and indices
+//! never leave the GPU's memory.
+//!
+//!     cargo run --release --features wgpu --example mesh_on_gpu -- scenes/teapot.toml mesh.png
+
+use std::error::Error;
+
+use bytemuck::cast_slice;
+use micropoly::backend_wgpu::{WgpuBuffer, WgpuDevice, wgpu};
+use micropoly::core::abi::{Frame, MeshVertex, Object, Patch, Shared};
+use micropoly::core::render::FramePlan;
+use micropoly::core::tessellate::MeshBuffers;
+use micropoly::{DeviceScene, FrameOptions, Image, Scene};
+
+/// Positions are in the space of their objects, so each vertex looks up its object.
+const SHADER: &str = "
+struct View { scale: vec2<f32>, near: f32, light: vec3<f32> }
+@group(0) @binding(0) var<storage, read> view: View;
+@group(0) @binding(1) var<storage, read> object_of: array<u32>; // a patch
+@group(0) @binding(2) var<storage, read> objects: array<array<vec4<f32>, 4>>; // three rows, and a colour
+
+struct Corner { @builtin(position) clip: vec4<f32>, @location(0) normal: vec3<f32>, @location(1) colour: vec3<f32> }
+
+@vertex
+fn corner(
+    @location(0) position: vec3<f32>, @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>, @location(3) patch_id: u32,
+) -> Corner {
+    let object = objects[object_of[patch_id]];
+    let point = vec4<f32>(position, 1.0);
+    let eye = vec3<f32>(dot(object[0], point), dot(object[1], point), dot(object[2], point));
+    let turned = vec3<f32>(dot(object[0].xyz, normal), dot(object[1].xyz, normal), dot(object[2].xyz, normal));
+    return Corner(vec4<f32>(eye.xy * view.scale, view.near, -eye.z), turned, object[3].xyz);
+}
+
+@fragment
+fn colour(corner: Corner, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+    let side = select(-1.0, 1.0, front);
+    let light = max(dot(normalize(corner.normal) * side, view.light), 0.0);
+    return vec4<f32>(corner.colour * (0.2 + 0.8 * light), 1.0);
+}
+";
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let (Some(scene), Some(output)) = (arguments.next(), arguments.next()) else {
+        return Err("name a scene and a PNG file to write".into());
+    };
+    let options = FrameOptions { size: 2.0, bound: 32.0, whole: true, ..FrameOptions::default() };
+    let seen = Scene::load(scene)?.for_device(&options)?;
+    let mut device = WgpuDevice::open(0, None)?;
+    let mesh = tessellated(&mut device, &seen)?;
+    println!(
+        "{} vertices and {} triangles on {}",
+        mesh.totals.vertices,
+        mesh.totals.triangles,
+        device.name()
+    );
+    let image = drawn(&device, &seen, &mesh)?;
+    image.save_png(output.as_ref())?;
+    Ok(())
+}
+
+fn tessellated(
+    device: &mut WgpuDevice,
+    seen: &DeviceScene,
+) -> Result<MeshBuffers<WgpuBuffer>, Box<dyn Error>> {
+    let patches = micropoly::core::patch::gregory::patch_count(&seen.patches) as u32;
+    let faces = seen.patches.len() as u32 - patches;
+    let plan = FramePlan::new(seen.frame, patches, seen.objects.len() as u32, 4096)?;
+    let sizes = micropoly::core::memory::Sizes { faces, ..*plan.sizes() };
+    let plan = FramePlan::with_sizes(seen.frame, sizes)?;
+    let mut buffers = plan.prepare(device, &seen.objects, &seen.patches)?;
+    Ok(plan.tessellate(device, &mut buffers)?)
+}
+
+fn drawn(
+    micropoly: &WgpuDevice,
+    seen: &DeviceScene,
+    mesh: &MeshBuffers<WgpuBuffer>,
+) -> Result<Image, Box<dyn Error>> {
+    let (device, queue) = (micropoly.device(), micropoly.queue());
+    let Frame { width, height, .. } = seen.frame;
+    let pipeline = pipeline(device);
+    let bindings = bindings(device, queue, &pipeline, seen);
+    let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+    let picture = texture(device, size, wgpu::TextureFormat::Rgba8UnormSrgb);
+    let depth = texture(device, size, wgpu::TextureFormat::Depth32Float);
+    let mut commands = device.create_command_encoder(&Default::default());
+    {
+        let views = (picture.create_view(&Default::default()), depth.create_view(&Default::default()));
+        let mut pass = commands.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &views.0,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &views.1,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(0.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &bindings, &[]);
+        pass.set_vertex_buffer(0, mesh.vertices.raw().slice(..));
+        pass.set_index_buffer(mesh.indices.raw().slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..3 * mesh.totals.triangles, 0, 0..1);
+    }
+    fetched(device, queue, commands, &picture)
+}
+
+fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(SHADER.into()),
+    });
+    // Offsets are those of `MeshVertex`.
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32];
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("corner"),
+            compilation_options: Default::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: MeshVertex::LAYOUT.size as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &attributes,
+            })],
+        },
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: wgpu::TextureFormat::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("colour"),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::TextureFormat::Rgba8UnormSrgb.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn bindings(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    pipeline: &wgpu::RenderPipeline,
+    seen: &DeviceScene,
+) -> wgpu::BindGroup {
+    let Frame { focal, centre_x, centre_y, near, light_vector: [[x, y, z, _], ..], .. } = seen.frame;
+    let view = [focal / centre_x, focal / centre_y, near, 0.0, x, y, z, 0.0];
+    let object_of: Vec<u32> = seen.patches.iter().map(|patch: &Patch| patch.object).collect();
+    let object = |object: &Object| {
+        let mut rows = [0.0; 16];
+        rows[..12].copy_from_slice(&object.to_eye);
+        rows[12..15].copy_from_slice(&object.colour);
+        rows
+    };
+    let objects: Vec<[f32; 16]> = seen.objects.iter().map(object).collect();
+    let buffers = [cast_slice(&view), cast_slice(&object_of), cast_slice(&objects)].map(|bytes: &[u8]| {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let size = bytes.len() as u64;
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size,
+            usage,
+            mapped_at_creation: false,
+        });
+        queue.write_buffer(&buffer, 0, bytes);
+        buffer
+    });
+    let entry = |(place, buffer): (usize, &wgpu::Buffer)| wgpu::BindGroupEntry {
+        binding: place as u32,
+        resource: buffer.as_entire_binding(),
+    };
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &buffers
+            .iter()
+            .enumerate()
+            .map(|it| {
+                let (place, buffer) = it;
+                entry((place, buffer))
+            })
+            .collect::<Vec<_>>(),
+    })
+}
+
+fn texture(device: &wgpu::Device, size: wgpu::Extent3d, format: wgpu::TextureFormat) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+/// Runs the commands and fetches the picture.
+fn fetched(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    mut commands: wgpu::CommandEncoder,
+    picture: &wgpu::Texture,
+) -> Result<Image, Box<dyn Error>> {
+    let (width, height) = (picture.width(), picture.height());
+    let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::from(row) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
+    let target = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+    commands.copy_texture_to_buffer(picture.as_image_copy(), target, picture.size());
+    queue.submit([commands.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+    device.poll(wgpu::PollType::wait_indefinitely())?;
+    let bytes = buffer.get_mapped_range(..)?;
+    let mut rgb = Vec::new();
+    for line in bytes.chunks_exact(row as usize) {
+        for pixel in line[..4 * width as usize].chunks_exact(4) {
+            rgb.extend_from_slice(&pixel[..3]);
+        }
+    }
+    Ok(Image { width, height, rgb })
+}
