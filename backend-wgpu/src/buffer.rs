@@ -75,6 +75,17 @@ impl WgpuBuffer {
         }
     }
 
+    /// The memory itself, for the caller's own commands on [`crate::WgpuDevice::device`]: its entries lie one after
+    /// the other as their layout says, from the start on. Besides what stages need, it can be copied, and bound as
+    /// vertices and as indices.
+    ///
+    /// Stages that were dispatched must be submitted first: [`crate::WgpuDevice::submit`]. Patches that do not fit one
+    /// buffer continue in another, which is not this one.
+    #[must_use]
+    pub fn raw(&self) -> &wgpu::Buffer {
+        &self.memory
+    }
+
     /// The memory itself.
     pub(crate) fn memory(&self) -> &wgpu::Buffer {
         &self.memory

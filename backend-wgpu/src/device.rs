@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};
 
-use micropoly_core::abi::{Layout, Patch, Shared};
+use micropoly_core::abi::{Draw, Layout, Patch, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::known;
 use micropoly_core::stage::{Items, Stage};
@@ -46,8 +46,8 @@ pub struct WgpuDevice {
 }
 
 impl WgpuDevice {
-    /// Opens device number `index` of [`crate::devices`], compiles its kernels (those of LOCAL when they are first
-    /// needed) and checks its arithmetic.
+    /// Opens device number `index` of [`crate::devices`], compiles its kernels (those of LOCAL and of meshes when they
+    /// are first needed) and checks its arithmetic.
     ///
     /// `edit` may change each kernel file before it is compiled: for mutation tests.
     ///
@@ -116,12 +116,33 @@ impl WgpuDevice {
         self.name.clone()
     }
 
-    /// Submits all dispatches recorded so far.
-    fn submit(&mut self) {
+    /// The device of wgpu's, for the caller's own commands, such as drawing a mesh where it is.
+    #[must_use]
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// Its queue.
+    #[must_use]
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
+    /// Submits all dispatches recorded so far: what the caller submits to [`WgpuDevice::queue`] afterwards sees what
+    /// they wrote.
+    pub fn submit(&mut self) {
         if let Some(encoder) = self.encoder.take() {
             self.queue.submit([encoder.finish()]);
         }
         self.pending = 0;
+    }
+
+    /// Submits them if they have become many.
+    fn submit_if_many(&mut self) -> Result<(), WgpuError> {
+        if self.pending >= MOST_PENDING {
+            self.submit();
+        }
+        self.checked()
     }
 
     /// The first failure since the device was opened.
@@ -171,8 +192,19 @@ impl WgpuDevice {
 
     /// Records one kernel.
     fn record(&mut self, which: Which, buffers: &[&wgpu::Buffer], groups: Groups) -> Result<(), WgpuError> {
+        let whole: Vec<_> = buffers.iter().map(|buffer| buffer.as_entire_binding()).collect();
+        self.record_parts(which, &whole, groups)
+    }
+
+    /// Records one kernel, on parts of buffers.
+    fn record_parts(
+        &mut self,
+        which: Which,
+        parts: &[wgpu::BindingResource<'_>],
+        groups: Groups,
+    ) -> Result<(), WgpuError> {
         let kernel = self.kernel(which)?;
-        let bind_group = bind(&self.device, &kernel, buffers);
+        let bind_group = bind(&self.device, &kernel, parts);
         let device = &self.device;
         let encoder = self.encoder.get_or_insert_with(|| device.create_command_encoder(&Default::default()));
         let mut pass = encoder.begin_compute_pass(&Default::default());
@@ -230,12 +262,37 @@ impl WgpuDevice {
         Ok(unfinished != [0; 8])
     }
 
+    /// Runs MESH on the first `count` draws: a group each, and the kernel knows how many there are by the length of
+    /// what is bound.
+    fn mesh(&mut self, count: u32, buffers: &[&WgpuBuffer]) -> Result<(), WgpuError> {
+        let &[frame, patches, draws, places, vertices, indices] = buffers else {
+            return Err(WgpuError::Bindings { stage: Stage::Mesh.name() });
+        };
+        if u64::from(count) > draws.entries().min(places.entries()) {
+            return Err(WgpuError::Bindings { stage: Stage::Mesh.name() });
+        }
+        let Some(bytes) = wgpu::BufferSize::new(u64::from(count) * Draw::LAYOUT.size as u64) else {
+            return Ok(());
+        };
+        let more = patches.more().unwrap_or_else(|| patches.memory());
+        let draws = wgpu::BufferBinding { buffer: draws.memory(), offset: 0, size: Some(bytes) };
+        let parts = [
+            frame.memory().as_entire_binding(),
+            patches.memory().as_entire_binding(),
+            wgpu::BindingResource::Buffer(draws),
+            places.memory().as_entire_binding(),
+            vertices.memory().as_entire_binding(),
+            indices.memory().as_entire_binding(),
+            more.as_entire_binding(),
+        ];
+        self.record_parts(Which::Stage(Stage::Mesh), &parts, spread(count))
+    }
+
     /// Number of groups of a stage; arranges them on the device if only it knows them.
     fn groups(&mut self, stage: Stage, items: Items, buffers: &[&WgpuBuffer]) -> Result<Groups, WgpuError> {
         match (stage, items) {
-            (Stage::Take | Stage::Balance | Stage::Flush, _) | (Stage::Scan, Items::Taken) => {
-                Ok(Groups::Known(1, 1))
-            }
+            (Stage::Take | Stage::Balance | Stage::MeshPlaces | Stage::Flush, _)
+            | (Stage::Scan, Items::Taken) => Ok(Groups::Known(1, 1)),
             (Stage::KnownAnswers, Items::Count(count)) => Ok(spread(count.div_ceil(ITEMS_A_GROUP))),
             // The kernels know how many there are by the length of their buffer.
             (Stage::Local | Stage::Deal, Items::Groups(count))
@@ -340,14 +397,11 @@ pub(crate) fn memory(
     device.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false })
 }
 
-fn bind(device: &wgpu::Device, kernel: &Kernel, buffers: &[&wgpu::Buffer]) -> wgpu::BindGroup {
-    let entries: Vec<_> = buffers
+fn bind(device: &wgpu::Device, kernel: &Kernel, parts: &[wgpu::BindingResource<'_>]) -> wgpu::BindGroup {
+    let entries: Vec<_> = parts
         .iter()
         .enumerate()
-        .map(|(place, buffer)| wgpu::BindGroupEntry {
-            binding: place as u32,
-            resource: buffer.as_entire_binding(),
-        })
+        .map(|(place, part)| wgpu::BindGroupEntry { binding: place as u32, resource: part.clone() })
         .collect();
     let (label, layout) = (None, &kernel.bindings);
     device.create_bind_group(&wgpu::BindGroupDescriptor { label, layout, entries: &entries })
@@ -368,7 +422,11 @@ impl Device for WgpuDevice {
         if bytes > limit {
             return Err(WgpuError::TooLarge { buffer: name, bytes, limit });
         }
-        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+        let usage = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_SRC
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::VERTEX // meshes are drawn from where they are
+            | wgpu::BufferUsages::INDEX;
         let errors = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let first = bytes.min(self.piece_bytes(layout));
         let rest = (bytes - first).max(layout.size as u64);
@@ -461,6 +519,10 @@ impl Device for WgpuDevice {
             })?;
             return self.checked();
         }
+        if let (Stage::Mesh, Items::Count(count)) = (stage, items) {
+            self.mesh(count, buffers)?;
+            return self.submit_if_many();
+        }
         let groups = self.groups(stage, items, buffers)?;
         let memories: Vec<_> = memories.into_iter().chain(more).collect();
         let which = match stage {
@@ -469,9 +531,6 @@ impl Device for WgpuDevice {
             _ => Which::Stage(stage),
         };
         self.record(which, &memories, groups)?;
-        if self.pending >= MOST_PENDING {
-            self.submit();
-        }
-        self.checked()
+        self.submit_if_many()
     }
 }

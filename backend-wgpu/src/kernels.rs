@@ -28,6 +28,8 @@ files! {
     BORDER: "border",
     BEZIER: "bezier",
     NET: "net",
+    EYE: "eye",
+    AS_IT_IS: "as_it_is",
     PROJECT: "project",
     GREGORY: "gregory",
     WEBER: "weber",
@@ -54,6 +56,8 @@ files! {
     COUNTS: "counts",
     TAKE: "take",
     TAKE_BATCH: "take_batch",
+    MESH_PLACES: "mesh_places",
+    MESH: "mesh",
     FLUSH: "flush",
     SCAN: "scan",
     SCAN_BATCH: "scan_batch",
@@ -100,7 +104,7 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
@@ -110,6 +114,8 @@ impl Which {
         Self::LocalAny,
         Self::Stage(Stage::Balance),
         Self::Stage(Stage::Deal),
+        Self::Stage(Stage::MeshPlaces),
+        Self::Stage(Stage::Mesh),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::Arrange,
@@ -154,6 +160,8 @@ impl Which {
             Self::Stage(Stage::Local) | Self::LocalAny => &[Stage::Local],
             Self::Stage(Stage::Balance) => &[Stage::Balance],
             Self::Stage(Stage::Deal) => &[Stage::Deal],
+            Self::Stage(Stage::MeshPlaces) => &[Stage::MeshPlaces],
+            Self::Stage(Stage::Mesh) => &[Stage::Mesh],
             Self::Stage(Stage::Flush) => &[Stage::Flush],
             Self::Stage(Stage::KnownAnswers) => &[Stage::KnownAnswers],
             Self::Arrange => &[Stage::Bound, Stage::Split],
@@ -179,6 +187,7 @@ impl Which {
                 BORDER,
                 BEZIER,
                 NET,
+                EYE,
                 PROJECT,
                 SIDES,
                 BOUND_BEZIER,
@@ -193,6 +202,7 @@ impl Which {
                 BORDER,
                 BEZIER,
                 NET,
+                EYE,
                 PROJECT,
                 GREGORY,
                 WEBER,
@@ -212,6 +222,7 @@ impl Which {
                 BORDER,
                 BEZIER,
                 NET,
+                EYE,
                 PROJECT,
                 SIDES,
                 BOUND_BEZIER,
@@ -222,11 +233,15 @@ impl Which {
                 LOCAL,
             ],
             Self::LocalAny => &[
-                GEN, ITEMS, COUNTS, NUM, SURFACE, BORDER, BEZIER, NET, PROJECT, GREGORY, WEBER, SIDES,
+                GEN, ITEMS, COUNTS, NUM, SURFACE, BORDER, BEZIER, NET, EYE, PROJECT, GREGORY, WEBER, SIDES,
                 BOUND_ANY, BOUND, TAKE, SCAN, SPLIT, LOCAL,
             ],
             Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
             Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
+            Self::Stage(Stage::MeshPlaces) => &[GEN, COUNTS, SURFACE, BORDER, MESH_PLACES],
+            Self::Stage(Stage::Mesh) => {
+                &[GEN, ITEMS, NUM, SURFACE, BORDER, BEZIER, NET, AS_IT_IS, GREGORY, DICE, DICE_GREGORY, MESH]
+            }
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],
@@ -239,6 +254,7 @@ impl Which {
                 BORDER,
                 BEZIER,
                 NET,
+                EYE,
                 PROJECT,
                 TRIANGLE,
                 DICE,
@@ -254,6 +270,7 @@ impl Which {
                 BORDER,
                 BEZIER,
                 NET,
+                EYE,
                 GREGORY,
                 PROJECT,
                 TRIANGLE,
@@ -323,14 +340,15 @@ pub(crate) enum Slot {
     Source(String),
 }
 
-/// Compiles a kernel; of those of LOCAL, which few frames need and which take long, only the source is kept.
+/// Compiles a kernel; of those of LOCAL and of meshes, which few frames need and which take long, only the source is
+/// kept.
 pub(crate) fn prepared(
     device: &wgpu::Device,
     which: Which,
     edit: Option<Edit<'_>>,
 ) -> Result<Slot, WgpuError> {
     let source = source(which.files(), edit);
-    if matches!(which, Which::Stage(Stage::Local) | Which::LocalAny) {
+    if matches!(which, Which::Stage(Stage::Local | Stage::MeshPlaces | Stage::Mesh) | Which::LocalAny) {
         return Ok(Slot::Source(source));
     }
     compiled(device, which, &source).map(Slot::Compiled)

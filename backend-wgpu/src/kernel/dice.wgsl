@@ -8,7 +8,11 @@ const GRID: u32 = STRIDE * STRIDE;
 // Vertices on the border of the largest grid.
 const BORDER: u32 = 4u * MAX_RATE;
 
-// Eye-space control net: coordinate k of control point l at 16 k + l.
+const GROUP: u32 = 64u;
+// An invocation each prepares what vertices share.
+const_assert BORDER <= GROUP && ROW_CURVES <= GROUP;
+
+// Control net: coordinate k of control point l at 16 k + l.
 var<workgroup> net: array<f32, 48>;
 // Parameters of columns and rows where the grid is regular.
 var<workgroup> column_u: array<u32, STRIDE>;
@@ -25,10 +29,6 @@ var<workgroup> flat_length: f32;
 // Parameters of the border's vertices, and what is there, by `border_slot`.
 var<workgroup> border_uv: array<vec2<u32>, BORDER>;
 var<workgroup> border: array<Evaluated, BORDER>;
-// The grid on screen, by `vertex_number`.
-var<workgroup> grid_x: array<i32, GRID>;
-var<workgroup> grid_y: array<i32, GRID>;
-var<workgroup> grid_w: array<f32, GRID>;
 
 // Is the grid regular up to its border?
 var<private> IS_REGULAR: bool;
@@ -65,6 +65,35 @@ fn curve_across(k: u32, weights: vec3<f32>) -> vec4<f32> {
         blend3(weights, steps(net_row(k, 2u))),
         blend3(weights, steps(net_row(k, 3u))),
     );
+}
+
+// What vertices share: the net, then the rows' curves and the columns' weights; and the border.
+fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
+    IS_REGULAR = all(border_words(surface_of(draw)) == vec4<u32>(0u));
+    let is_moved = lane < border_count(rates) && !IS_REGULAR;
+    if lane < 48u {
+        net[lane] = transformed(draw.patch_id, lane / 16u, lane % 16u);
+    }
+    prepare_faces(draw.patch_id, lane);
+    if lane <= rates.x {
+        prepare_column(draw, lane);
+    }
+    if lane <= rates.y {
+        row_v[lane] = row_of(draw, lane);
+    }
+    if is_moved {
+        prepare_border(draw, lane);
+    }
+    workgroupBarrier();
+    if lane < 3u * (rates.y + 1u) {
+        prepare_row(lane);
+    }
+    if is_moved {
+        border[lane] = evaluate_moved(border_uv[lane]);
+    }
+    if lane == 59u {
+        flat_length = mul(size(), FLAT);
+    }
 }
 
 // The curve in row `row`, or the weights of column `column`: one share of what the vertices need.
@@ -173,36 +202,14 @@ fn evaluate_bezier(draw: Draw, row: u32, column: u32) -> Evaluated {
     return evaluate(row, column);
 }
 
-// One vertex of the grid at word `base`: position, snapped position, normal, colour.
-fn dice(draw: Draw, object: u32, row: u32, column: u32, base: u32) {
-    let evaluated = evaluate_any(draw, row, column);
-    let vertex = project(evaluated.point);
-    let at = vertex_number(row, column);
-    grid_x[at] = vertex.x;
-    grid_y[at] = vertex.y;
-    grid_w[at] = vertex.w;
-    measure(vertex);
-    put_screen(base, at, vertex);
-    put_space(base, at, 0u, evaluated.point);
-    var normal = unit_normal(evaluated.du, evaluated.dv, flat_length);
+// The unit normal of a vertex, or one from nearby where it vanished.
+fn normal_at(draw: Draw, row: u32, column: u32, evaluated: Evaluated) -> vec3<f32> {
+    let normal = unit_normal(evaluated.du, evaluated.dv, flat_length);
     if largest3(normal) < 0.5 {
         let place = vertex_of(draw, row, column);
-        normal = normal_nearby(place.x, place.y);
+        return normal_nearby(place.x, place.y);
     }
-    let colour = shade(object, evaluated.point, normal);
-    put_space(base, at, 3u, colour);
-}
-
-fn put_screen(base: u32, at: u32, vertex: Vertex) {
-    grids[screen_base(base, 0u) + at] = bitcast<u32>(vertex.x);
-    grids[screen_base(base, 1u) + at] = bitcast<u32>(vertex.y);
-    grids[screen_base(base, 2u) + at] = bitcast<u32>(vertex.w);
-}
-
-fn put_space(base: u32, at: u32, first: u32, value: vec3<f32>) {
-    grids[space_base(base, first) + at] = bitcast<u32>(value.x);
-    grids[space_base(base, first + 1u) + at] = bitcast<u32>(value.y);
-    grids[space_base(base, first + 2u) + at] = bitcast<u32>(value.z);
+    return normal;
 }
 
 // Largest side of the box around the control points.

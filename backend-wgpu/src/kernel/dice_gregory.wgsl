@@ -2,7 +2,7 @@
 
 // The record of the patch's face points; 0 if it is a Bezier patch.
 var<workgroup> record: u32;
-// Eye-space face points: coordinate k of point l at 8 k + l.
+// Face points: coordinate k of point l at 8 k + l.
 var<workgroup> faces: array<f32, 24>;
 
 fn prepare_faces(patch_id: u32, lane: u32) {

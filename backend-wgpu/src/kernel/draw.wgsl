@@ -7,12 +7,13 @@
 @group(0) @binding(4) var<storage, read_write> grids: array<u32>;
 @group(0) @binding(5) var<storage, read> patches_more: array<Patch>;
 
-const GROUP: u32 = 64u;
-// An invocation each prepares what vertices share.
-const_assert BORDER <= GROUP && ROW_CURVES <= GROUP;
 // A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `near` in `triangle.wgsl`.
 const NARROW: i32 = 16000;
 
+// The grid on screen, by `vertex_number`.
+var<workgroup> grid_x: array<i32, GRID>;
+var<workgroup> grid_y: array<i32, GRID>;
+var<workgroup> grid_w: array<f32, GRID>;
 // The box around all vertices.
 var<workgroup> low_x: atomic<i32>;
 var<workgroup> high_x: atomic<i32>;
@@ -29,6 +30,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let draw = draws[grids[HEAD_START] + group.x];
     let rates = draw_rates(draw);
     let base = grid_base(group.x);
+    if lane == 63u {
+        clear_measures();
+    }
     prepare(draw, rates, lane);
     workgroupBarrier();
     let object = object_of(draw.patch_id);
@@ -44,36 +48,31 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
 }
 
-// What vertices share: the net, then the rows' curves and the columns' weights; and the border.
-fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
-    IS_REGULAR = all(border_words(surface_of(draw)) == vec4<u32>(0u));
-    let is_moved = lane < border_count(rates) && !IS_REGULAR;
-    if lane < 48u {
-        net[lane] = transformed(draw.patch_id, lane / 16u, lane % 16u);
-    }
-    prepare_faces(draw.patch_id, lane);
-    if lane == 63u {
-        clear_measures();
-    }
-    if lane <= rates.x {
-        prepare_column(draw, lane);
-    }
-    if lane <= rates.y {
-        row_v[lane] = row_of(draw, lane);
-    }
-    if is_moved {
-        prepare_border(draw, lane);
-    }
-    workgroupBarrier();
-    if lane < 3u * (rates.y + 1u) {
-        prepare_row(lane);
-    }
-    if is_moved {
-        border[lane] = evaluate_moved(border_uv[lane]);
-    }
-    if lane == 59u {
-        flat_length = mul(size(), FLAT);
-    }
+// One vertex of the grid at word `base`: snapped position, position, colour.
+fn dice(draw: Draw, object: u32, row: u32, column: u32, base: u32) {
+    let evaluated = evaluate_any(draw, row, column);
+    let vertex = project(evaluated.point);
+    let at = vertex_number(row, column);
+    grid_x[at] = vertex.x;
+    grid_y[at] = vertex.y;
+    grid_w[at] = vertex.w;
+    measure(vertex);
+    put_screen(base, at, vertex);
+    put_space(base, at, 0u, evaluated.point);
+    let colour = shade(object, evaluated.point, normal_at(draw, row, column, evaluated));
+    put_space(base, at, 3u, colour);
+}
+
+fn put_screen(base: u32, at: u32, vertex: Vertex) {
+    grids[screen_base(base, 0u) + at] = bitcast<u32>(vertex.x);
+    grids[screen_base(base, 1u) + at] = bitcast<u32>(vertex.y);
+    grids[screen_base(base, 2u) + at] = bitcast<u32>(vertex.w);
+}
+
+fn put_space(base: u32, at: u32, first: u32, value: vec3<f32>) {
+    grids[space_base(base, first) + at] = bitcast<u32>(value.x);
+    grids[space_base(base, first + 1u) + at] = bitcast<u32>(value.y);
+    grids[space_base(base, first + 2u) + at] = bitcast<u32>(value.z);
 }
 
 fn clear_measures() {

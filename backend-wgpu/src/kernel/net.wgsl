@@ -33,15 +33,9 @@ fn control_point(patch_id: u32, l: u32) -> vec3<f32> {
     return vec3<f32>(patches_more[there].x[l], patches_more[there].y[l], patches_more[there].z[l]);
 }
 
-// One eye-space coordinate (0, 1, 2) of control point `l`.
-fn transformed(patch_id: u32, k: u32, l: u32) -> f32 {
-    let object = object_of(patch_id);
-    let p = control_point(patch_id, l);
-    let m0 = objects[object].to_eye[4u * k];
-    let m1 = objects[object].to_eye[4u * k + 1u];
-    let m2 = objects[object].to_eye[4u * k + 2u];
-    let m3 = objects[object].to_eye[4u * k + 3u];
-    return add(add(add(mul(m0, p.x), mul(m1, p.y)), mul(m2, p.z)), m3);
+// One coordinate of a point, given its row of a matrix.
+fn row_of_matrix(row: vec4<f32>, p: vec3<f32>) -> f32 {
+    return add(add(add(mul(row.x, p.x), mul(row.y, p.y)), mul(row.z, p.z)), row.w);
 }
 
 fn in_eye_space(patch_id: u32) -> Net {
