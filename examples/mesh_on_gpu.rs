@@ -186,22 +186,12 @@ fn bindings(
         queue.write_buffer(&buffer, 0, bytes);
         buffer
     });
-    let entry = |(place, buffer): (usize, &wgpu::Buffer)| wgpu::BindGroupEntry {
-        binding: place as u32,
-        resource: buffer.as_entire_binding(),
-    };
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &buffers
-            .iter()
-            .enumerate()
-            .map(|it| {
-                let (place, buffer) = it;
-                entry((place, buffer))
-            })
-            .collect::<Vec<_>>(),
-    })
+    let mut entries = Vec::new();
+    for (place, buffer) in (0..).zip(&buffers) {
+        entries.push(wgpu::BindGroupEntry { binding: place, resource: buffer.as_entire_binding() });
+    }
+    let layout = pipeline.get_bind_group_layout(0);
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
 }
 
 fn texture(device: &wgpu::Device, size: wgpu::Extent3d, format: wgpu::TextureFormat) -> wgpu::Texture {
