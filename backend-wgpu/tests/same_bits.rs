@@ -185,8 +185,11 @@ fn many_groups_are_spread_over_two_dimensions() {
     assert!(matches!(error, WgpuError::Bindings { stage: "local" }), "{error}");
 }
 
-/// All words of the mesh that `draws` come to, but for the last draw.
-fn mesh<D: Device>(device: &mut D, patches: &[Patch], draws: &[Draw]) -> (Vec<u32>, Vec<u32>) {
+/// Words of a mesh's vertices, and its indices.
+type Words = (Vec<u32>, Vec<u32>);
+
+/// The mesh that `draws` come to, but for the last draw.
+fn mesh<D: Device>(device: &mut D, patches: &[Patch], draws: &[Draw]) -> Words {
     let count = draws.len() as u32 - 1;
     let sizes = draws[..count as usize].iter().map(|draw| (draw.vertices(), draw.triangles()));
     let (vertices, triangles) = sizes.fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
@@ -298,7 +301,7 @@ fn tessellated_frames_have_the_same_bits() {
     assert!(mesh.indices.raw().usage().contains(wgpu::BufferUsages::INDEX));
 }
 
-fn tessellated<D: Device>(device: &mut D, case: &Case) -> (MeshBuffers<D::Buffer>, (Vec<u32>, Vec<u32>)) {
+fn tessellated<D: Device>(device: &mut D, case: &Case) -> (MeshBuffers<D::Buffer>, Words) {
     let plan = case.plan(Schedule::of_batch(500)).expect("a plan");
     let mut buffers = plan.prepare(device, &case.objects, &case.patches).expect("memory");
     let mesh = plan.tessellate(device, &mut buffers).expect("tessellates");
