@@ -4,12 +4,17 @@ use micropoly::{Borders, FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
 use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
-use micropoly_core::abi::{Draw, Frame, Group, Object, Patch, Question, Shared, Surface};
+use micropoly_core::abi::{
+    Control, DRAW, Draw, Frame, Group, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Shared,
+    Surface, Verdict,
+};
 use micropoly_core::backend::Device;
+use micropoly_core::border::Side;
 use micropoly_core::kernel::known_answers::answer;
 use micropoly_core::memory::stack_min;
 use micropoly_core::schedule::Scheduler;
 use micropoly_core::stage::{Items, Stage};
+use micropoly_core::tessellate::MeshBuffers;
 
 fn open() -> WgpuDevice {
     WgpuDevice::open(0, None).unwrap_or_else(|error| panic!("these tests need a GPU or lavapipe: {error}"))
@@ -178,6 +183,133 @@ fn many_groups_are_spread_over_two_dimensions() {
     let error =
         device.dispatch(Stage::Local, Items::Groups(count - 1), &buffers).expect_err("more are there");
     assert!(matches!(error, WgpuError::Bindings { stage: "local" }), "{error}");
+}
+
+/// Words of a mesh's vertices, and its indices.
+type Words = (Vec<u32>, Vec<u32>);
+
+/// The mesh that `draws` come to, but for the last draw.
+fn mesh<D: Device>(device: &mut D, patches: &[Patch], draws: &[Draw]) -> Words {
+    let count = draws.len() as u32 - 1;
+    let sizes = draws[..count as usize].iter().map(|draw| (draw.vertices(), draw.triangles()));
+    let (vertices, triangles) = sizes.fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
+    let mut reserve = |name, layout, entries: usize| {
+        device.allocate(name, layout, entries as u64).unwrap_or_else(|error| panic!("{name}: {error}"))
+    };
+    let buffers = (
+        reserve("frame", Frame::LAYOUT, 1),
+        reserve("patches", Patch::LAYOUT, patches.len()),
+        reserve("control", Control::LAYOUT, 1),
+        reserve("draws", Draw::LAYOUT, draws.len()),
+        reserve("places", MeshPlace::LAYOUT, draws.len()),
+        reserve("totals", MeshTotals::LAYOUT, 1),
+        reserve("vertices", MeshVertex::LAYOUT, vertices as usize),
+        reserve("indices", u32::LAYOUT, 3 * triangles as usize),
+    );
+    let (frame, stored, control, drawn, places, totals, vertex, index) = &buffers;
+    device.write(stored, patches).expect("writes");
+    device.write(drawn, draws).expect("writes");
+    device.write(control, &[Control { waiting: 5, fresh: count - 5, ..Control::default() }]).expect("writes");
+    device.dispatch(Stage::MeshPlaces, Items::Count(1), &[control, drawn, places, totals]).expect("runs");
+    let mesh = [frame, stored, drawn, places, vertex, index];
+    device.dispatch(Stage::Mesh, Items::Count(count), &mesh).expect("runs");
+    let mut found = [MeshTotals::default()];
+    device.read(totals, 0, &mut found).expect("reads");
+    assert_eq!(found, [MeshTotals { vertices, triangles }]);
+    let mut all_vertices = vec![MeshVertex::default(); vertices as usize];
+    device.read(vertex, 0, &mut all_vertices).expect("reads");
+    let mut indices = vec![0; 3 * triangles as usize];
+    device.read(index, 0, &mut indices).expect("reads");
+    (bytemuck::cast_slice(&all_vertices).to_vec(), indices)
+}
+
+/// A draw of a whole patch.
+fn whole(patch_id: u32, rates: [u32; 2]) -> Draw {
+    let verdict = Verdict { code: DRAW, ..Verdict::default() }.with_sides([Side::LIVE; 4], rates);
+    Draw::new(Surface::root(patch_id), verdict)
+}
+
+/// More draws than one dimension of a dispatch has groups; the groups that are too many leave all alone.
+#[test]
+fn meshes_of_many_draws_are_spread_over_two_dimensions() {
+    let patches = case("teapot", small()).patches;
+    let mut draws: Vec<Draw> = (0..70_000).map(|index| whole(1 + index % 30, [1, 1 + index % 2])).collect();
+    draws.push(whole(0, [16, 16]));
+    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), &patches, &draws);
+    assert!(mesh(&mut open(), &patches, &draws) == expected);
+}
+
+/// Control points of a mesh stay as they are, except that -0 becomes 0.
+#[test]
+fn meshes_have_no_negative_zeros() {
+    let mut patches = case("gregory", small()).patches;
+    patches.iter_mut().for_each(|patch| patch.z = [-0.0; 16]);
+    let count = patches.len() as u32;
+    let draws: Vec<Draw> = (0..count).map(|patch_id| whole(patch_id, [3, 2])).collect();
+    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), &patches, &draws);
+    assert!(expected.0.chunks(9).all(|vertex| vertex[2] == 0), "z is 0");
+    assert!(mesh(&mut open(), &patches, &draws) == expected);
+}
+
+/// Patches that one binding has no room for lie in two, for meshes too.
+#[test]
+fn meshes_of_patches_in_two_pieces_have_the_same_bits() {
+    let patches = case("spheres", small()).patches;
+    let count = patches.len() as u32;
+    let draws: Vec<Draw> = (0..50).chain(count - 50..count).map(|patch_id| whole(patch_id, [5, 8])).collect();
+    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), &patches, &draws);
+    let mut device = open();
+    device.limit_buffers(250_000);
+    assert!(patches.len() as u64 * Patch::LAYOUT.size as u64 > 250_000);
+    assert!(mesh(&mut device, &patches, &draws) == expected);
+}
+
+#[test]
+fn a_mesh_of_more_draws_than_there_are_is_an_error() {
+    let mut device = open();
+    let mut reserve = |name, layout| device.allocate(name, layout, 3).expect("memory");
+    let (frame, patches) = (reserve("frame", Frame::LAYOUT), reserve("patches", Patch::LAYOUT));
+    let (draws, places) = (reserve("draws", Draw::LAYOUT), reserve("places", MeshPlace::LAYOUT));
+    let (vertices, indices) = (reserve("vertices", MeshVertex::LAYOUT), reserve("indices", u32::LAYOUT));
+    let buffers = [&frame, &patches, &draws, &places, &vertices, &indices];
+    device.dispatch(Stage::Mesh, Items::Count(0), &buffers).expect("nothing to do");
+    let error = device.dispatch(Stage::Mesh, Items::Count(4), &buffers).expect_err("more than there are");
+    assert!(matches!(error, WgpuError::Bindings { stage: "mesh" }), "{error}");
+}
+
+/// A whole frame, by batches whose draws follow each other; then as its user copies it.
+#[test]
+fn tessellated_frames_have_the_same_bits() {
+    let case = case("gregory", FrameOptions { whole: true, ..small() });
+    let expected = tessellated(&mut CpuDevice::new(1).expect("threads"), &case).1;
+    let mut device = open();
+    let (mesh, found) = tessellated(&mut device, &case);
+    assert!(found == expected);
+    let bytes = u64::from(mesh.totals.triangles) * 12;
+    let (label, usage) = (None, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+    let wanted = wgpu::BufferDescriptor { label, size: bytes, usage, mapped_at_creation: false };
+    let copy = device.device().create_buffer(&wanted);
+    let mut encoder = device.device().create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(mesh.indices.raw(), 0, &copy, 0, bytes);
+    device.submit();
+    device.queue().submit([encoder.finish()]);
+    copy.map_async(wgpu::MapMode::Read, .., |done| done.expect("maps"));
+    device.device().poll(wgpu::PollType::wait_indefinitely()).expect("waits");
+    let copied = copy.get_mapped_range(..).expect("is mapped");
+    assert!(bytemuck::cast_slice::<u8, u32>(&copied) == expected.1);
+    assert!(mesh.vertices.raw().usage().contains(wgpu::BufferUsages::VERTEX));
+    assert!(mesh.indices.raw().usage().contains(wgpu::BufferUsages::INDEX));
+}
+
+fn tessellated<D: Device>(device: &mut D, case: &Case) -> (MeshBuffers<D::Buffer>, Words) {
+    let plan = case.plan(Schedule::of_batch(500)).expect("a plan");
+    let mut buffers = plan.prepare(device, &case.objects, &case.patches).expect("memory");
+    let mesh = plan.tessellate(device, &mut buffers).expect("tessellates");
+    let mut vertices = vec![MeshVertex::default(); mesh.totals.vertices as usize];
+    device.read(&mesh.vertices, 0, &mut vertices).expect("reads");
+    let mut indices = vec![0; 3 * mesh.totals.triangles as usize];
+    device.read(&mesh.indices, 0, &mut indices).expect("reads");
+    (mesh, (bytemuck::cast_slice(&vertices).to_vec(), indices))
 }
 
 #[test]
