@@ -81,6 +81,8 @@ impl FramePlan {
                 Ok(())
             },
         )?;
+        // Whoever draws the mesh need not know what the device still has to submit: a read comes after all of it.
+        device.read(meshing.totals, 0, &mut [MeshTotals::default()])?;
         Ok((counts, totals))
     }
 }
