@@ -115,6 +115,9 @@ impl OclDevice {
     }
 
     fn enqueue(&self, which: Which, buffers: &[&OclBuffer], grid: Grid) -> Result<(), OclError> {
+        if grid.groups.contains(&0) {
+            return Ok(()); // drivers may refuse to do nothing
+        }
         let kernel = &self.kernels[which.index()];
         let failed = OclError::driver(which.name());
         for (place, buffer) in (0..).zip(buffers) {
@@ -125,8 +128,7 @@ impl OclDevice {
             // SAFETY: kernels that are told a number take it after their buffers.
             unsafe { kernel.set_arg(buffers.len() as u32, &number) }.map_err(&failed)?;
         }
-        let global = grid.groups.map(|groups| groups.max(1));
-        let global = [global[0] * GROUP, global[1]];
+        let global = [grid.groups[0] * GROUP, grid.groups[1]];
         let local = [GROUP, 1];
         // SAFETY: two dimensions, two sizes each; kernels stay within their buffers.
         unsafe {
@@ -199,14 +201,14 @@ impl Grid {
     fn of(stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Option<Self> {
         match (stage, items) {
             (Stage::KnownAnswers, Items::Count(count)) => Self::counted(count, &buffers[1..3]),
-            (Stage::Take | Stage::Flush | Stage::Balance, _) | (Stage::Scan, Items::Taken) => {
-                Some(Self::of_groups(1, 1))
-            }
+            (Stage::Take | Stage::Flush | Stage::Balance | Stage::MeshPlaces, _)
+            | (Stage::Scan, Items::Taken) => Some(Self::of_groups(1, 1)),
             // How many are taken only the device knows; the rest of the batch does nothing.
             (Stage::Bound, Items::Taken) => Some(Self::of_items(buffers[5].entries())),
             (Stage::Split, Items::Taken) => Some(Self::of_items(buffers[1].entries())),
             (Stage::Local, Items::Groups(count)) => Self::a_column_each(count, 1, buffers[4]),
             (Stage::Deal, Items::Groups(count)) => Self::a_column_each(count, DEAL_ROWS, buffers[1]),
+            (Stage::Mesh, Items::Count(count)) => Self::a_column_each(count, 1, buffers[3]),
             _ => None,
         }
     }
@@ -216,9 +218,9 @@ impl Grid {
         fits.then(|| Self { number: Some(count), ..Self::of_items(u64::from(count)) })
     }
 
-    /// A column of work-groups a group of LOCAL; there may be more groups than devices have room for in a column.
-    fn a_column_each(count: u32, rows: u64, groups: &OclBuffer) -> Option<Self> {
-        (u64::from(count) <= groups.entries()).then(|| Self::of_groups(count.into(), rows))
+    /// A column of work-groups a group of LOCAL, or a draw; there may be more than devices have room for in a column.
+    fn a_column_each(count: u32, rows: u64, all: &OclBuffer) -> Option<Self> {
+        (u64::from(count) <= all.entries()).then(|| Self::of_groups(count.into(), rows))
     }
 
     fn of_items(items: u64) -> Self {

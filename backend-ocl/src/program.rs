@@ -22,8 +22,8 @@ macro_rules! files {
 files! {
     "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "border.cl" "net.cl" "gregory.cl" "project.cl" "weber.cl"
     "take.cl" "sides.cl" "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "shade.cl" "triangle.cl" "clip.cl"
-    "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "flush.cl" "scan.cl" "split.cl"
-    "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
+    "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "mesh.cl" "flush.cl" "scan.cl"
+    "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
 }
 
 /// The kernels: one a stage, and those into which the fused stage is cut.
@@ -67,7 +67,7 @@ const fn write<T: Shared>(name: &'static str) -> Argument {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::Stage(Stage::Scan),
@@ -75,6 +75,8 @@ impl Which {
         Self::Stage(Stage::Local),
         Self::Stage(Stage::Balance),
         Self::Stage(Stage::Deal),
+        Self::Stage(Stage::MeshPlaces),
+        Self::Stage(Stage::Mesh),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::ArrangeDraw,
@@ -99,6 +101,8 @@ impl Which {
             Self::Stage(Stage::Local) => "stage_local",
             Self::Stage(Stage::Balance) => "stage_balance",
             Self::Stage(Stage::Deal) => "stage_deal",
+            Self::Stage(Stage::MeshPlaces) => "stage_mesh_places",
+            Self::Stage(Stage::Mesh) => "stage_mesh",
             Self::Stage(Stage::Flush) => "stage_flush",
             Self::Stage(Stage::KnownAnswers) => "stage_known_answers",
             Self::ArrangeDraw => "arrange_draw",

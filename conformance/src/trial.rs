@@ -34,11 +34,21 @@ const FOUND: &str = "\nfound: ";
 /// No mutant is ever seen again.
 const NO_CACHES: [(&str, &str); 2] = [("POCL_KERNEL_CACHE", "0"), ("MESA_SHADER_CACHE_DISABLE", "true")];
 /// Stages that are opened together, those first that are compiled and run soonest.
-const QUICK_TO_SLOW: [&[Stage]; 4] = [
-    &[Stage::Take, Stage::Flush, Stage::Scan, Stage::Split, Stage::Balance, Stage::Deal, Stage::KnownAnswers],
+const QUICK_TO_SLOW: [&[Stage]; 5] = [
+    &[
+        Stage::Take,
+        Stage::Flush,
+        Stage::Scan,
+        Stage::Split,
+        Stage::Balance,
+        Stage::Deal,
+        Stage::MeshPlaces,
+        Stage::KnownAnswers,
+    ],
     &[Stage::Bound],
     &[Stage::Local],
     &[Stage::Draw],
+    &[Stage::Mesh],
 ];
 
 /// Gives a kernel file's name and source, takes the source to be built.

@@ -5,7 +5,7 @@
 // address a constant in them, PoCL 3.1 loses it.
 #define INLINED static __attribute__((always_inline))
 
-// What all vertices of a grid share, and what is found out about them all.
+// What all vertices of a grid share.
 typedef struct {
     // Parameters of columns and rows, where the grid is regular.
     uint column_u[SIDE];
@@ -16,20 +16,14 @@ typedef struct {
     // Control points and derivatives across of each row's iso-curve: coordinate k of row r at 3 r + k.
     float4 row_point[3u * SIDE];
     float4 row_across[3u * SIDE];
-    // Eye-space control net: coordinate k of control point l at 16 k + l.
+    // Control net, transformed: coordinate k of control point l at 16 k + l.
     float net[48];
-    // Eye-space face points of a Gregory patch: coordinate k of point l at 8 k + l.
+    // Face points, transformed, of a Gregory patch: coordinate k of point l at 8 k + l.
     float faces[24];
     // Not 0 if it is one.
     uint is_gregory;
     // Tangents no longer than this have vanished.
     float flat_length;
-    // The box around all vertices.
-    Extents extents;
-    // Not 0 if a vertex must be clipped.
-    uint must_clip;
-    // Not 0 if a micropolygon may face the eye.
-    uint faces_eye;
 } Grid;
 
 // The curve v = constant of a patch: control points and derivatives across, a coordinate each.
@@ -150,6 +144,33 @@ static void prepare_row(uint zero, __local Grid *grid, uint task) {
     __local const float *c = coordinate(grid->net, task % 3u);
     grid->row_point[task] = curve_point(zero, c, cubic(zero, t));
     grid->row_across[task] = curve_across(zero, c, cubic_slope(zero, t));
+}
+
+// Fills in what all vertices share: the net, the columns' weights, then the rows' curves. A barrier must follow.
+INLINED void prepare(uint zero, Transform transform, __global const Patch *patch, __global const Patch *record,
+                     Draw draw, __local Grid *grid, uint lane) {
+    if (lane < 48u) {
+        grid->net[lane] = transformed(zero, patch, row_of(transform, lane / 16u), lane % 16u);
+    }
+    if (lane < 24u) {
+        grid->faces[lane] = transformed(zero, record, row_of(transform, lane / 8u), lane % 8u);
+    }
+    if (lane == GROUP - 1u) {
+        grid->is_gregory = patch->faces != 0u;
+    }
+    for (uint column = lane; column <= rate_u(draw); column += GROUP) {
+        prepare_column(zero, draw, grid, column);
+    }
+    for (uint row = GROUP - 1u - lane; row <= rate_v(draw); row += GROUP) {
+        grid->row_v[row] = row_at(draw, row);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint task = lane; task < 3u * (rate_v(draw) + 1u); task += GROUP) {
+        prepare_row(zero, grid, task);
+    }
+    if (lane == GROUP - 1u) {
+        grid->flat_length = mul(size(zero, grid->net), FLAT);
+    }
 }
 
 // u and v of a vertex: on a border, one of the border's own.

@@ -81,3 +81,11 @@ static void evaluate_any(__constant Frame *frame, __local const Grid *grid, uint
         evaluate(frame->zero, grid, row, column, position, du, dv);
     }
 }
+
+// Position and unit normal of one vertex of a grid.
+INLINED void position_and_normal(__constant Frame *frame, __local const Grid *grid, uint2 at, uint row, uint column,
+                                 float3 *position, float3 *normal) {
+    float3 du, dv;
+    evaluate_any(frame, grid, at, row, column, position, &du, &dv);
+    *normal = normal_from(frame->zero, grid, at, du, dv);
+}

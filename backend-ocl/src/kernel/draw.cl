@@ -5,59 +5,41 @@
 // A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `triangle.cl`.
 #define NARROW 16000
 
-static void clear_measures(__local Grid *grid) {
-    grid->extents = nothing();
-    grid->must_clip = 0u;
-    grid->faces_eye = 0u;
+// What is found out about all vertices of a grid.
+typedef struct {
+    // The box around them.
+    Extents extents;
+    // Not 0 if one must be clipped.
+    uint must_clip;
+    // Not 0 if a micropolygon may face the eye.
+    uint faces_eye;
+} Measures;
+
+static void clear_measures(__local Measures *measures) {
+    measures->extents = nothing();
+    measures->must_clip = 0u;
+    measures->faces_eye = 0u;
 }
 
-static void measure(__local Grid *grid, Vertex vertex) {
-    include(&grid->extents, vertex.x, vertex.y);
+static void measure(__local Measures *measures, Vertex vertex) {
+    include(&measures->extents, vertex.x, vertex.y);
     if (vertex.w == 0.0f) {
-        grid->must_clip = 1u; // whoever writes, it is the same
-    }
-}
-
-// What all vertices share: the net, the columns' weights, then the rows' curves.
-static void prepare(uint zero, __global const Object *object, __global const Patch *patch,
-                    __global const Patch *record, Draw draw, __local Grid *grid, uint lane) {
-    if (lane < 48u) {
-        grid->net[lane] = transformed(zero, patch, object->to_eye + lane / 16u * 4u, lane % 16u);
-    }
-    if (lane < 24u) {
-        grid->faces[lane] = transformed(zero, record, object->to_eye + lane / 8u * 4u, lane % 8u);
-    }
-    if (lane == GROUP - 1u) {
-        clear_measures(grid);
-        grid->is_gregory = patch->faces != 0u;
-    }
-    for (uint column = lane; column <= rate_u(draw); column += GROUP) {
-        prepare_column(zero, draw, grid, column);
-    }
-    for (uint row = GROUP - 1u - lane; row <= rate_v(draw); row += GROUP) {
-        grid->row_v[row] = row_at(draw, row);
-    }
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint task = lane; task < 3u * (rate_v(draw) + 1u); task += GROUP) {
-        prepare_row(zero, grid, task);
-    }
-    if (lane == GROUP - 1u) {
-        grid->flat_length = mul(size(zero, grid->net), FLAT);
+        measures->must_clip = 1u; // whoever writes, it is the same
     }
 }
 
 // Vertices and their colours.
-static void dice_and_shade(__constant Frame *frame, __global const Object *object, Draw draw, __local Grid *grid,
-                           __global uint *grids, uint base, uint lane) {
+static void dice_and_shade(__constant Frame *frame, __global const Object *object, Draw draw,
+                           __local const Grid *grid, __local Measures *measures, __global uint *grids, uint base,
+                           uint lane) {
     const uint stride = rate_u(draw) + 1u, count = stride * (rate_v(draw) + 1u);
     for (uint at = lane; at < count; at += GROUP) {
         const uint row = at / stride, column = at % stride;
         const uint2 parameters = vertex_of(draw, grid, row, column);
-        float3 position, du, dv;
-        evaluate_any(frame, grid, parameters, row, column, &position, &du, &dv);
-        const float3 normal = normal_from(frame->zero, grid, parameters, du, dv);
+        float3 position, normal;
+        position_and_normal(frame, grid, parameters, row, column, &position, &normal);
         const Vertex vertex = project(frame, position);
-        measure(grid, vertex);
+        measure(measures, vertex);
         put_screen(frame, grids, base, at, vertex);
         put_space(frame, grids, base, at, 0u, position);
         put_space(frame, grids, base, at, 3u, shade(frame, object, position, normal));
@@ -73,26 +55,26 @@ static bool may_face_eye(__constant Frame *frame, __global const uint *grids, ui
 }
 
 // Finds out whether a micropolygon may face the eye, if that matters.
-static void seek_faces(__constant Frame *frame, Draw draw, __local Grid *grid, __global const uint *grids,
-                       uint base, uint lane) {
+static void seek_faces(__constant Frame *frame, Draw draw, __local Measures *measures,
+                       __global const uint *grids, uint base, uint lane) {
     const uint rate = rate_u(draw), stride = rate + 1u;
     const uint count = frame->flags & FLAG_CULL_BACKFACES ? rate * rate_v(draw) : 0u;
     for (uint index = lane; index < count; index += GROUP) {
         const uint at = index / rate * stride + index % rate;
         if (may_face_eye(frame, grids, base, at, at + stride)) {
-            grid->faces_eye = 1u; // whoever writes, it is the same
+            measures->faces_eye = 1u; // whoever writes, it is the same
         }
     }
 }
 
-static uint kind_of(__constant Frame *frame, __local const Grid *grid) {
-    if ((frame->flags & FLAG_CULL_BACKFACES) && grid->faces_eye == 0u) {
+static uint kind_of(__constant Frame *frame, __local const Measures *measures) {
+    if ((frame->flags & FLAG_CULL_BACKFACES) && measures->faces_eye == 0u) {
         return KIND_HIDDEN;
     }
-    const Extents extents = grid->extents;
+    const Extents extents = measures->extents;
     const bool narrow =
         extents.high_x - extents.low_x <= NARROW && extents.high_y - extents.low_y <= NARROW;
-    return narrow && grid->must_clip == 0u ? KIND_NEAR : KIND_GENERAL;
+    return narrow && measures->must_clip == 0u ? KIND_NEAR : KIND_GENERAL;
 }
 
 // The pixels between the first and the last that the box around the vertices covers, of `count`, packed.
@@ -102,10 +84,10 @@ static uint packed(int low, int high, uint count) {
 }
 
 // What a grid that is whole can touch is known better now than when it was bounded.
-static void put_flags(__constant Frame *frame, Draw draw, __local const Grid *grid, __global uint *grids,
-                      uint index) {
-    const uint found = kind_of(frame, grid);
-    const Extents extents = grid->extents;
+static void put_flags(__constant Frame *frame, Draw draw, __local const Measures *measures,
+                      __global uint *grids, uint index) {
+    const uint found = kind_of(frame, measures);
+    const Extents extents = measures->extents;
     const bool is_near = found == KIND_NEAR;
     const uint place = flags_place(index);
     grids[place] = found | draw.shape >> RATE_U_SHIFT << RATES_SHIFT;
@@ -120,6 +102,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void stage_draw(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
                 __global const Draw *draws, __global uint *grids) {
     __local Grid grid;
+    __local Measures measures;
     const uint lane = get_local_id(0), index = get_group_id(0);
     const bool is_one = index < grids[HEAD_COUNT];
     // Where there is no draw, the address of one all the same: compilers may load first and branch later.
@@ -130,13 +113,16 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     if (!is_one) {
         return;
     }
-    prepare(frame->zero, object, patch, patches + patch->faces, draw, &grid, lane);
+    if (lane == GROUP - 1u) {
+        clear_measures(&measures);
+    }
+    prepare(frame->zero, to_eye_of(object), patch, patches + patch->faces, draw, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    dice_and_shade(frame, object, draw, &grid, grids, base, lane);
+    dice_and_shade(frame, object, draw, &grid, &measures, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
-    seek_faces(frame, draw, &grid, grids, base, lane);
+    seek_faces(frame, draw, &measures, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
-        put_flags(frame, draw, &grid, grids, index);
+        put_flags(frame, draw, &measures, grids, index);
     }
 }

@@ -14,10 +14,11 @@ static uint inner(uint m) {
 
 static void faces_in_eye_space(uint zero, __global const Patch *record, __global const Object *object,
                                Faces *faces) {
+    const Transform to_eye = to_eye_of(object);
     for (uint l = 0u; l < 8u; l++) {
-        faces->x[l] = transformed(zero, record, object->to_eye, l);
-        faces->y[l] = transformed(zero, record, object->to_eye + 4, l);
-        faces->z[l] = transformed(zero, record, object->to_eye + 8, l);
+        faces->x[l] = transformed(zero, record, to_eye.x, l);
+        faces->y[l] = transformed(zero, record, to_eye.y, l);
+        faces->z[l] = transformed(zero, record, to_eye.z, l);
     }
 }
 

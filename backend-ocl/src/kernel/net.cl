@@ -5,17 +5,34 @@ typedef struct {
     float z[16];
 } Net;
 
+// A transform: a row a coordinate.
+typedef struct {
+    float4 x;
+    float4 y;
+    float4 z;
+} Transform;
+
+static Transform to_eye_of(__global const Object *object) {
+    const Transform transform = {vload4(0, object->to_eye), vload4(1, object->to_eye), vload4(2, object->to_eye)};
+    return transform;
+}
+
+static float4 row_of(Transform transform, uint k) {
+    return k == 0u ? transform.x : (k == 1u ? transform.y : transform.z);
+}
+
 // One coordinate of control point `l` in eye space, by its row of the transform.
-static float transformed(uint zero, __global const Patch *patch, __global const float *row, uint l) {
-    const float xy = add(mul(row[0], patch->x[l]), mul(row[1], patch->y[l]));
-    return add(add(xy, mul(row[2], patch->z[l])), row[3]);
+static float transformed(uint zero, __global const Patch *patch, float4 row, uint l) {
+    const float xy = add(mul(row.x, patch->x[l]), mul(row.y, patch->y[l]));
+    return add(add(xy, mul(row.z, patch->z[l])), row.w);
 }
 
 static void in_eye_space(uint zero, __global const Patch *patch, __global const Object *object, Net *net) {
+    const Transform to_eye = to_eye_of(object);
     for (uint l = 0u; l < 16u; l++) {
-        net->x[l] = transformed(zero, patch, object->to_eye, l);
-        net->y[l] = transformed(zero, patch, object->to_eye + 4, l);
-        net->z[l] = transformed(zero, patch, object->to_eye + 8, l);
+        net->x[l] = transformed(zero, patch, to_eye.x, l);
+        net->y[l] = transformed(zero, patch, to_eye.y, l);
+        net->z[l] = transformed(zero, patch, to_eye.z, l);
     }
 }
 
