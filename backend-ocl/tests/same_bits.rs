@@ -5,12 +5,14 @@
 use micropoly::{Borders, FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
+use micropoly_conformance::report::check_stage;
 use micropoly_conformance::{Case, Schedule, run, run_scheduled};
 use micropoly_core::abi::Shared;
 use micropoly_core::backend::Device;
 use micropoly_core::known;
 use micropoly_core::memory::stack_min;
 use micropoly_core::schedule::Scheduler;
+use micropoly_core::stage::Stage;
 
 /// Everything that an OpenCL compiler may be told to break.
 const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
@@ -216,6 +218,22 @@ fn a_hostile_compiler_changes_no_bits_behind_the_barrier() {
     };
     for scene in SCENES {
         compare(&case(scene, &SMALL), &[4096], &options);
+    }
+}
+
+#[test]
+fn meshes_have_the_bits_of_the_cpu_behind_the_barrier() {
+    let barrier = OpenOptions { barrier: true, ..OpenOptions::default() };
+    let hostile = OpenOptions { build_options: HOSTILE.to_owned(), skip_check: true, ..barrier.clone() };
+    for options in [OpenOptions::default(), barrier, hostile] {
+        for index in 0..device_count() {
+            let mut device = OclDevice::open(index, &options).unwrap_or_else(|error| panic!("{error}"));
+            let mut cpu = CpuDevice::new(1).expect("threads");
+            for stage in [Stage::MeshPlaces, Stage::Mesh] {
+                let report = check_stage(&mut cpu, &mut device, stage, 20);
+                assert!(report.agrees(), "{}, {options:?}: {report:?}", device.name());
+            }
+        }
     }
 }
 

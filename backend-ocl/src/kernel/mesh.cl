@@ -20,7 +20,7 @@ static void put_point(__local float *points, uint at, float3 point) {
     points[2u * POINTS + at] = point.z;
 }
 
-static bool is_same_point(__local const float *points, uint a, uint b) {
+INLINED bool is_same_point(__local const float *points, uint a, uint b) {
     return points[a] == points[b] && points[POINTS + a] == points[POINTS + b]
         && points[2u * POINTS + a] == points[2u * POINTS + b];
 }
@@ -47,7 +47,7 @@ static void put_vertices(__constant Frame *frame, Draw draw, __local const Grid 
 }
 
 // A triangle of the grid whose vertices start at `first`, or thrice the same corner if it has collapsed.
-static void put_triangle(__local const float *points, uint first, uint a, uint b, uint c, __global uint *indices) {
+INLINED void put_triangle(__local const float *points, uint first, uint a, uint b, uint c, __global uint *indices) {
     const bool collapsed =
         is_same_point(points, a, b) || is_same_point(points, b, c) || is_same_point(points, c, a);
     indices[0] = first + a;
