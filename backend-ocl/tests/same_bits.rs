@@ -7,7 +7,7 @@ use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
 use micropoly_conformance::report::check_stage;
 use micropoly_conformance::{Case, Schedule, run, run_scheduled};
-use micropoly_core::abi::Shared;
+use micropoly_core::abi::{MeshVertex, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::known;
 use micropoly_core::memory::stack_min;
@@ -218,6 +218,41 @@ fn a_hostile_compiler_changes_no_bits_behind_the_barrier() {
     };
     for scene in SCENES {
         compare(&case(scene, &SMALL), &[4096], &options);
+    }
+}
+
+/// Bits of all vertices, and all indices.
+fn mesh<D: Device>(
+    device: &mut D,
+    case: &Case,
+    schedule: Schedule,
+) -> Result<(Vec<MeshVertex>, Vec<u32>), D::Error> {
+    let plan = case.plan(schedule)?;
+    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    let mesh = plan.tessellate(device, &mut buffers)?;
+    let mut vertices = vec![MeshVertex::default(); mesh.totals.vertices as usize];
+    let mut indices = vec![0; 3 * mesh.totals.triangles as usize];
+    device.read(&mesh.vertices, 0, &mut vertices)?;
+    device.read(&mesh.indices, 0, &mut indices)?;
+    Ok((vertices, indices))
+}
+
+#[test]
+fn meshes_of_frames_have_the_bits_of_the_cpu() {
+    let options = FrameOptions { whole: true, ..SMALL };
+    for (scene, batch) in [("teapot", 300), ("eyesplit", 64), ("gregory", 4096)] {
+        let (case, schedule) = (case(scene, &options), Schedule::of_batch(batch));
+        let mut cpu = CpuDevice::new(1).expect("threads");
+        let (vertices, indices) = mesh(&mut cpu, &case, schedule).expect("a mesh");
+        assert!(!indices.is_empty(), "{scene}");
+        for index in 0..device_count() {
+            let mut device =
+                OclDevice::open(index, &OpenOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+            let found = mesh(&mut device, &case, schedule).unwrap_or_else(|error| panic!("{error}"));
+            let same_bits =
+                bytemuck::cast_slice::<_, u32>(&found.0) == bytemuck::cast_slice::<_, u32>(&vertices);
+            assert!(same_bits && found.1 == indices, "{scene}: {} differs", device.name());
+        }
     }
 }
 

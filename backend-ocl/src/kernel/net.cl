@@ -21,7 +21,7 @@ static float4 row_of(Transform transform, uint k) {
     return k == 0u ? transform.x : (k == 1u ? transform.y : transform.z);
 }
 
-// One coordinate of control point `l` in eye space, by its row of the transform.
+// One coordinate of control point `l`, by its row of the transform.
 static float transformed(uint zero, __global const Patch *patch, float4 row, uint l) {
     const float xy = add(mul(row.x, patch->x[l]), mul(row.y, patch->y[l]));
     return add(add(xy, mul(row.z, patch->z[l])), row.w);
