@@ -40,6 +40,14 @@ impl Side {
     /// Not decided yet.
     pub const LIVE: Self = Self { steps: 0, bits: 0 };
 
+    /// Steps that a grid needs along a part of the piece, 2^`own_bits` units long, to have all vertices there.
+    #[inline(always)]
+    #[must_use]
+    pub const fn steps_needed(self, own_bits: u32) -> u32 {
+        let halved = self.bits.saturating_sub(own_bits); // a live side needs none
+        (self.steps + (1 << halved) - 1) >> halved
+    }
+
     #[inline(always)]
     const fn packed(self) -> u32 {
         self.steps | self.bits << 5
@@ -125,12 +133,7 @@ impl Surface {
     #[inline(always)]
     #[must_use]
     pub const fn steps_needed(self, side: usize) -> u32 {
-        let Side { steps, bits } = self.side(side);
-        if steps == 0 {
-            return 0;
-        }
-        let halved = bits - self.extent_of(side).1;
-        (steps + (1 << halved) - 1) >> halved
+        self.side(side).steps_needed(self.extent_of(side).1)
     }
 
     /// Are the side's own vertices those of a regular grid with so many steps along it?

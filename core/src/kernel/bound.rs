@@ -230,11 +230,9 @@ fn by_extents(frame: &Frame, surface: Surface, extents: (f32, f32)) -> u32 {
 #[inline(always)]
 fn with_sides(frame: &Frame, surface: Surface, lengths: &Lengths, verdict: Verdict) -> Verdict {
     let sides = divide(frame, surface, lengths, verdict.code);
-    let verdict = verdict.with_sides(sides, [0; 2]);
-    if verdict.code == SPLIT_U || verdict.code == SPLIT_V {
-        return verdict;
-    }
-    verdict.with_sides(sides, rates(frame, surface.divided(verdict), lengths))
+    let is_split = verdict.code == SPLIT_U || verdict.code == SPLIT_V;
+    let rates = if is_split { [0; 2] } else { rates(frame, surface, &sides, lengths) };
+    verdict.with_sides(sides, rates)
 }
 
 /// The verdict on the surface inside a hull.

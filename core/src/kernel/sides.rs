@@ -80,15 +80,16 @@ pub fn divide(frame: &Frame, surface: Surface, lengths: &Lengths, code: u32) -> 
 /// every vertex of its sides.
 #[inline(always)]
 #[must_use]
-pub fn rates(frame: &Frame, surface: Surface, lengths: &Lengths) -> [u32; 2] {
+pub fn rates(frame: &Frame, surface: Surface, sides: &[Side; 4], lengths: &Lengths) -> [u32; 2] {
     if frame.flags & FLAG_FIXED != 0 {
         return [frame.rate; 2];
     }
-    let least = |length: f32, first: usize| {
-        let own = steps(frame, length);
-        own.max(surface.steps_needed(first)).max(surface.steps_needed(first + 1))
+    let least = |length: f32, level: u32, [a, b]: [Side; 2]| {
+        let bits = PARAM_BITS - level;
+        steps(frame, length).max(a.steps_needed(bits)).max(b.steps_needed(bits))
     };
-    [least(lengths.u, 0), least(lengths.v, 2)]
+    let [a, b, c, d] = *sides;
+    [least(lengths.u, surface.u_level(), [a, b]), least(lengths.v, surface.v_level(), [c, d])]
 }
 
 /// Lengths of the sides of a surface of a Gregory patch: a side on the patch's edge as it is in `lengths`, as if
