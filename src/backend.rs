@@ -129,27 +129,25 @@ pub fn render<F: FnMut(&Counts)>(
     options: &RenderOptions,
     mut progress: F,
 ) -> Result<Rendering> {
-    let (candidates, mut notes) = options.backend.candidates(options.device.as_deref())?;
-    let (rendering, refusals) = first_that_opens(&candidates, |entry| {
+    let ((backend, rendering), mut notes) = on_first_device(options, |entry| {
         let job = Render { scene, options, progress: &mut progress };
         with_device(entry, options.threads, job).map(|rendering| (entry.backend, rendering))
     })?;
-    let (backend, rendering) = rendering;
     let rendering = rendering?;
-    notes.extend(refusals.into_iter().chain(rendering.notes.iter().cloned()));
+    notes.extend(rendering.notes.iter().cloned());
     Ok(Rendering { backend, notes, ..rendering })
 }
 
-/// Gives a job to the first device that the options mean and that opens; and what a user should be told about that.
-pub(crate) fn on_first_device<J: Job>(
+/// What `attempt` makes of the first device that the options mean and that opens; and what a user should be told
+/// about that.
+pub(crate) fn on_first_device<T>(
     options: &RenderOptions,
-    job: impl Fn() -> J,
-) -> Result<(J::Output, Vec<String>)> {
+    attempt: impl FnMut(&DeviceEntry) -> Result<T>,
+) -> Result<(T, Vec<String>)> {
     let (candidates, mut notes) = options.backend.candidates(options.device.as_deref())?;
-    let (output, refusals) =
-        first_that_opens(&candidates, |entry| with_device(entry, options.threads, job()))?;
+    let (made, refusals) = first_that_opens(&candidates, attempt)?;
     notes.extend(refusals);
-    Ok((output, notes))
+    Ok((made, notes))
 }
 
 /// What `attempt` makes of the first entry that it does not refuse, and why it refused those before.

@@ -228,6 +228,21 @@ fn options_that_cannot_be_are_refused() {
 }
 
 #[test]
+fn micropolygons_are_as_long_as_they_should_be_and_fewer_than_fixed_ones() {
+    let scenes = ["scenes/teapot.toml", "scenes/hair.toml"];
+    let output = micropoly(&[&["bench", "--dicing", "--repeat=1", "--json=-"][..], &scenes].concat());
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8_lossy(&output.stdout);
+    let json = text.find("[\n").expect("JSON behind the table");
+    let rows: serde_json::Value = serde_json::from_str(&text[json..]).expect("JSON");
+    for (row, share) in rows.as_array().expect("rows").iter().zip([0.6, 0.2]) {
+        let of_fixed = row["lengths"]["micropolygons"].as_f64().zip(row["fixed"].as_f64());
+        assert!(row["in_range"].as_f64().is_some_and(|in_range| in_range >= 0.9), "{row}");
+        assert!(of_fixed.is_some_and(|(own, fixed)| own > 0.0 && own <= share * fixed), "{row}");
+    }
+}
+
+#[test]
 fn the_smallest_memory_that_is_named_is_enough() {
     let (_folder, scene) = folder(&scene(CAMERA, OBJECT), FLAT);
     let (_, text, _) = render(&scene, &["--memory=1KiB"]);

@@ -7,8 +7,8 @@ use micropoly_core::abi::{
     Slot, Surface, Verdict,
 };
 use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
-use micropoly_core::kernel::dice::{Grid, dice};
-use micropoly_core::kernel::dice_gregory::dice_gregory;
+use micropoly_core::kernel::dice::Grid;
+use micropoly_core::kernel::dice_gregory::dice_any;
 use micropoly_core::kernel::known_answers::answer as known_answer;
 use micropoly_core::kernel::mesh::{self, QUAD_INDICES};
 use micropoly_core::kernel::sample::{Band, sample};
@@ -16,7 +16,6 @@ use micropoly_core::kernel::scan::scan as scan_batch;
 use micropoly_core::kernel::shade::shade;
 use micropoly_core::kernel::split::{Outcome, split as split_one};
 use micropoly_core::kernel::take::{self as taking, member};
-use micropoly_core::patch::{Faces, Net};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
@@ -234,14 +233,7 @@ fn draw_band(scene: Scene<'_>, grid: &mut Grid, band: &mut Band<'_>) {
         }
         let patch = &scene.patches[draw.patch_id as usize];
         let object = &scene.objects[patch.object as usize];
-        let net = Net::in_eye_space(patch, object);
-        match patch.faces {
-            0 => dice(&net, scene.frame, *draw, grid),
-            record => {
-                let faces = Faces::in_eye_space(&scene.patches[record as usize], object);
-                dice_gregory(&net, &faces, scene.frame, *draw, grid);
-            }
-        }
+        dice_any(scene.frame, scene.patches, object, *draw, grid);
         shade(scene.frame, object, grid);
         sample(scene.frame, *draw, grid, band);
     }

@@ -409,7 +409,7 @@ shared_structs! {
         drawn: u32,
         /// Drawn surfaces that would have been split at a deeper level, since the host last asked.
         limited: u32,
-        /// Micropolygons of the drawn surfaces, since the host last asked.
+        /// Micropolygons of the drawn surfaces, since the host last asked; modulo 2³², so right for 2²⁴ - 1 draws.
         micropolygons: u32,
         /// Entries that a buffer would have needed beyond its size; 0 = everything fitted.
         overflow: u32,

@@ -12,7 +12,7 @@
 //! some steps added along one of them.
 
 use crate::abi::{
-    CORNER_SHIFT, Draw, FIVE_BITS, PARAM_ONE, RATE_U_SHIFT, RATE_V_SHIFT, SIDE_MASK, SPLIT_U, Surface,
+    CORNER_SHIFT, Draw, FIVE_BITS, PARAM_BITS, RATE_U_SHIFT, RATE_V_SHIFT, SIDE_MASK, SPLIT_U, Surface,
     Verdict,
 };
 
@@ -118,15 +118,10 @@ impl Surface {
         astray(self.borders[corner] >> CORNER_SHIFT, [u, v])
     }
 
-    /// Where a side begins along its line, the log2 of its length, and how often the piece it lies in was halved
-    /// since.
+    /// Where a side begins along its line, and the log2 of its length.
     #[inline(always)]
-    const fn extent_of(self, side: usize) -> (u32, u32) {
-        if side < 2 {
-            (self.u, PARAM_ONE.trailing_zeros() - self.u_level())
-        } else {
-            (self.v, PARAM_ONE.trailing_zeros() - self.v_level())
-        }
+    pub(crate) const fn extent_of(self, side: usize) -> (u32, u32) {
+        if side < 2 { (self.u, PARAM_BITS - self.u_level()) } else { (self.v, PARAM_BITS - self.v_level()) }
     }
 
     /// Steps that a grid needs along a side, so that it can have all of the side's vertices.
@@ -194,11 +189,12 @@ impl Surface {
         }
         let (start, own_bits) = self.extent_of(side);
         let along = side as u32 / 2;
-        let middle = (1 << own_bits) / 2;
-        let (from, before) = (start & ((1 << bits) - 1), (start & ((1 << bits) - 1)) + middle);
-        let step = (before * steps) >> bits;
+        // Of the piece: where the side begins, and where its middle is.
+        let from = start & ((1 << bits) - 1);
+        let middle = from + (1 << own_bits) / 2;
+        let step = (middle * steps) >> bits;
         if step << bits > from * steps {
-            if place(step, steps, bits) == before {
+            if place(step, steps, bits) == middle {
                 return 0;
             }
             let mut clear = [0; 2];
@@ -291,12 +287,12 @@ impl Draw {
         (self.shape >> RATE_V_SHIFT) & FIVE_BITS
     }
 
-    /// `u` of a column of vertices, and `v` of a row, inside the grid, where it is regular.
+    /// `u` of a column of vertices inside the grid, where it is regular.
     #[inline(always)]
     #[must_use]
     pub const fn column(self, column: u32) -> u32 {
         let surface = self.surface();
-        surface.u + place(column, self.rate_u(), PARAM_ONE.trailing_zeros() - surface.u_level())
+        surface.u + place(column, self.rate_u(), PARAM_BITS - surface.u_level())
     }
 
     /// `v` of a row of vertices inside the grid.
@@ -304,7 +300,7 @@ impl Draw {
     #[must_use]
     pub const fn row(self, row: u32) -> u32 {
         let surface = self.surface();
-        surface.v + place(row, self.rate_v(), PARAM_ONE.trailing_zeros() - surface.v_level())
+        surface.v + place(row, self.rate_v(), PARAM_BITS - surface.v_level())
     }
 
     /// `u` and `v` of a vertex of the grid: on a border, one of the border's own.

@@ -3,7 +3,7 @@
 //! Subdivision runs twice: first to count, so that the buffers are as large as they must be and no larger, then to
 //! fill them. Both runs take the same surfaces in the same order.
 
-use crate::abi::{Control, MeshPlace, MeshTotals, MeshVertex, Shared};
+use crate::abi::{Control, MAX_RATE, MeshPlace, MeshTotals, MeshVertex, Shared};
 use crate::backend::Device;
 use crate::error::PlanError;
 use crate::kernel::mesh::QUAD_INDICES;
@@ -32,21 +32,39 @@ struct Meshing<'a, B> {
     mesh: Option<(&'a B, &'a B)>,
 }
 
+/// Most draws that are meshed at once: all their vertices and triangles together are counted in 32 bits.
+const MOST_DRAWS: u64 = u32::MAX as u64 / (2 * MAX_RATE * MAX_RATE) as u64;
+
 impl FramePlan {
+    /// Can this plan make a mesh?
+    ///
+    /// # Errors
+    /// [`PlanError::BreadthMesh`]; [`PlanError::Invalid`] if so many surfaces may be drawn at once that their vertices
+    /// cannot be counted.
+    pub const fn can_tessellate(&self) -> Result<(), PlanError> {
+        let (draws, batch) = (self.draws_at_once(), self.sizes().batch as u64);
+        if matches!(self.sizes().scheduler, Scheduler::Breadth) {
+            return Err(PlanError::BreadthMesh);
+        }
+        if draws > MOST_DRAWS {
+            let (option, most) = ("batch", batch * MOST_DRAWS / draws);
+            return Err(PlanError::Invalid { option, value: batch, least: 1, most });
+        }
+        Ok(())
+    }
+
     /// Tessellates the frame, whose buffers are [`FramePlan::prepare`]d. With [`crate::abi::FLAG_WHOLE`] the mesh is
     /// whole; its vertices are in the spaces of their objects.
     ///
     /// # Errors
-    /// What the device reports; [`PlanError::BreadthMesh`]; [`PlanError::TooLarge`] if the mesh does not fit the device's largest buffer, or an
-    /// index 32 bits.
+    /// As [`FramePlan::can_tessellate`]; what the device reports; [`PlanError::TooLarge`] if the mesh does not fit the
+    /// device's largest buffer, or an index 32 bits.
     pub fn tessellate<D: Device>(
         &self,
         device: &mut D,
         buffers: &mut Buffers<D::Buffer>,
     ) -> Result<MeshBuffers<D::Buffer>, D::Error> {
-        if self.sizes().scheduler == Scheduler::Breadth {
-            return Err(PlanError::BreadthMesh.into());
-        }
+        self.can_tessellate()?;
         let places = device.allocate("places", MeshPlace::LAYOUT, self.draws_at_once())?;
         let own = device.allocate("totals", MeshTotals::LAYOUT, 1)?;
         let count = Meshing { places: &places, totals: &own, mesh: None };

@@ -7,14 +7,12 @@ use std::collections::HashMap;
 
 use common::{between, random, view};
 use glam::{DVec3, Vec3};
-use micropoly_core::abi::{
-    CULL, DRAW, DRAW_LIMITED, Draw, FLAG_NAIVE, FLAG_WHOLE, Frame, Object, Patch, Surface,
-};
+use micropoly_core::abi::{Draw, FLAG_NAIVE, FLAG_WHOLE, Frame, Object, Patch};
 use micropoly_core::camera::Camera;
-use micropoly_core::kernel::bound::bound_any;
-use micropoly_core::kernel::dice::{Grid, dice};
-use micropoly_core::kernel::dice_gregory::dice_gregory;
-use micropoly_core::patch::{Faces, Net};
+use micropoly_core::kernel::dice::Grid;
+use micropoly_core::kernel::dice_gregory::dice_any;
+use micropoly_core::patch::gregory::patch_count;
+use micropoly_core::schedule::for_each_draw;
 
 /// A closed mesh of quads: corners of each face, in the order (0,0), (1,0), (0,1), (1,1) of u and v.
 type Quads = Vec<[usize; 4]>;
@@ -106,19 +104,12 @@ fn put(net: &[Vec3; 16]) -> Patch {
 
 /// All that is drawn of a scene.
 fn drawn(frame: &Frame, object: &Object, patches: &[Patch]) -> Vec<Draw> {
-    let count = micropoly_core::patch::gregory::patch_count(patches);
-    let mut stack: Vec<_> = (0..count as u32).map(Surface::root).collect();
     let mut draws = Vec::new();
-    while let Some(surface) = stack.pop() {
-        let verdict = bound_any(frame, &[*object], patches, surface);
-        match verdict.code {
-            CULL => {}
-            DRAW | DRAW_LIMITED => {
-                assert_eq!(verdict.code, DRAW, "more levels are needed");
-                draws.push(Draw::new(surface, verdict));
-            }
-            _ => stack.extend(surface.halves(verdict)),
-        }
+    for patch in 0..patch_count(patches) as u32 {
+        for_each_draw(frame, &[*object], patches, patch, |draw, is_limited| {
+            assert!(!is_limited, "more levels are needed");
+            draws.push(draw);
+        });
     }
     draws
 }
@@ -136,15 +127,7 @@ fn tally(frame: &Frame, object: &Object, patches: &[Patch]) -> Tally {
     let mut edges: HashMap<([u32; 3], [u32; 3]), i32> = HashMap::new();
     let mut grid = Box::new(Grid::default());
     for draw in drawn(frame, object, patches) {
-        let patch = &patches[draw.patch_id as usize];
-        let net = Net::in_eye_space(patch, object);
-        match patch.faces {
-            0 => dice(&net, frame, draw, &mut grid),
-            record => {
-                let faces = Faces::in_eye_space(&patches[record as usize], object);
-                dice_gregory(&net, &faces, frame, draw, &mut grid);
-            }
-        }
+        dice_any(frame, patches, object, draw, &mut grid);
         // -0 is 0.
         let point = |at: usize| grid.point(at).map(|c| (c + 0.0).to_bits());
         for (row, column) in (0..grid.rows - 1).flat_map(|row| (0..grid.stride - 1).map(move |c| (row, c))) {

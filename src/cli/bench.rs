@@ -54,7 +54,7 @@ fn say_spikes(rows: &[Row]) {
 }
 
 /// The scenes that a user names, or the built-in ones; of these, those with a path if one is needed.
-fn scenes(files: &[std::path::PathBuf], with_path: bool) -> Result<Vec<Scene>> {
+pub(super) fn scenes(files: &[std::path::PathBuf], with_path: bool) -> Result<Vec<Scene>> {
     let built_in =
         |(name, text): (&str, &str)| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
     if !files.is_empty() {

@@ -1,10 +1,10 @@
 //! `micropoly bench --dicing`: lengths and number of micropolygons, and what watertight borders cost.
 
+use micropoly::Result;
 use micropoly::dicing::Dicing;
-use micropoly::{Result, Scene, scene_file};
 
 use super::args::BenchArguments;
-use super::bench::short;
+use super::bench::{scenes, short};
 use super::render::write_json;
 
 pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
@@ -19,7 +19,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
         "ratio"
     );
     let mut rows = Vec::new();
-    for scene in scenes(&arguments.scenes)? {
+    for scene in scenes(&arguments.scenes, false)? {
         let row = Dicing::measure(&scene, &arguments.frame.options(), arguments.repeat)?;
         say!("{}", line(&row));
         rows.push(row);
@@ -28,21 +28,6 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
         Some(path) => write_json(path, &rows),
         None => Ok(()),
     }
-}
-
-fn scenes(files: &[std::path::PathBuf]) -> Result<Vec<Scene>> {
-    if !files.is_empty() {
-        return files.iter().map(Scene::load).collect();
-    }
-    let built_in = [
-        ("hair", include_str!("../../scenes/hair.toml")),
-        ("columns", include_str!("../../scenes/columns.toml")),
-        ("city", include_str!("../../scenes/city.toml")),
-        ("eyesplit", include_str!("../../scenes/eyesplit.toml")),
-    ];
-    let parsed =
-        |(name, text): (&str, &str)| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
-    built_in.into_iter().map(parsed).collect()
 }
 
 fn line(row: &Dicing) -> String {

@@ -1,12 +1,11 @@
 //! How long micropolygons are on screen: the measure of an adaptive dice rate.
 
-use micropoly_core::abi::{CULL, DRAW, DRAW_LIMITED, Draw, Surface};
+use micropoly_core::abi::Draw;
 use micropoly_core::camera::FrameOptions;
-use micropoly_core::kernel::bound::bound_any;
-use micropoly_core::kernel::dice::{Grid, dice};
-use micropoly_core::kernel::dice_gregory::dice_gregory;
+use micropoly_core::kernel::dice::Grid;
+use micropoly_core::kernel::dice_gregory::dice_any;
 use micropoly_core::patch::gregory::patch_count;
-use micropoly_core::patch::{Faces, Net};
+use micropoly_core::schedule::for_each_draw;
 use serde::Serialize;
 
 use crate::error::Result;
@@ -34,23 +33,24 @@ impl Histogram {
     /// # Errors
     /// As [`Scene::for_device`].
     pub fn of(scene: &Scene, options: &FrameOptions) -> Result<Self> {
-        let seen = scene.for_device(options)?;
+        let DeviceScene { frame, objects, patches } = scene.for_device(options)?;
         let (mut out, mut grid) = (Self::default(), Box::new(Grid::default()));
-        for patch in 0..patch_count(&seen.patches) as u32 {
-            for_each_draw(&seen, patch, |draw| {
-                dice_any(&seen, draw, &mut grid);
+        for patch in 0..patch_count(&patches) as u32 {
+            let object = &objects[patches[patch as usize].object as usize];
+            for_each_draw(&frame, &objects, &patches, patch, |draw, _| {
+                dice_any(&frame, &patches, object, draw, &mut grid);
                 out.add(draw, &grid, options.size);
             });
         }
         Ok(out)
     }
 
-    /// Share of sides that are as long as the target or up to half as long.
+    /// Share of sides between half of the target and all of it; 0 if there are none.
     #[must_use]
     pub fn share_in_range(&self) -> f64 {
         let within: u64 = self.sides[CLASSES / 2..CLASSES].iter().sum();
-        let all: u64 = self.sides.iter().sum::<u64>();
-        within as f64 / all as f64
+        let all: u64 = self.sides.iter().sum();
+        within as f64 / all.max(1) as f64
     }
 
     fn add(&mut self, draw: Draw, grid: &Grid, size: f32) {
@@ -84,31 +84,5 @@ impl Histogram {
         }
         let class = (length * CLASSES as f64).ceil() as usize;
         self.sides[class.saturating_sub(1).min(2 * CLASSES - 1)] += 1;
-    }
-}
-
-/// Everything that is drawn of a patch.
-fn for_each_draw(seen: &DeviceScene, patch: u32, mut each: impl FnMut(Draw)) {
-    let mut stack = vec![Surface::root(patch)];
-    while let Some(surface) = stack.pop() {
-        let verdict = bound_any(&seen.frame, &seen.objects, &seen.patches, surface);
-        match verdict.code {
-            CULL => {}
-            DRAW | DRAW_LIMITED => each(Draw::new(surface, verdict)),
-            _ => stack.extend(surface.halves(verdict)),
-        }
-    }
-}
-
-fn dice_any(seen: &DeviceScene, draw: Draw, grid: &mut Grid) {
-    let patch = &seen.patches[draw.patch_id as usize];
-    let object = &seen.objects[patch.object as usize];
-    let net = Net::in_eye_space(patch, object);
-    match patch.faces {
-        0 => dice(&net, &seen.frame, draw, grid),
-        record => {
-            let faces = Faces::in_eye_space(&seen.patches[record as usize], object);
-            dice_gregory(&net, &faces, &seen.frame, draw, grid);
-        }
     }
 }

@@ -19,7 +19,7 @@ use micropoly_core::tessellate::MeshBuffers;
 use rayon::prelude::*;
 
 use crate::backend::on_first_device;
-use crate::devices::Job;
+use crate::devices::{Job, with_device};
 use crate::error::{Error, Result};
 use crate::render::{RenderOptions, plan_on};
 use crate::scene::{DeviceScene, Scene};
@@ -73,7 +73,9 @@ impl Mesh {
     /// # Errors
     /// As [`crate::render()`]; [`Error::Plan`] if the mesh is larger than the device's largest buffer, or breadth-first.
     pub fn of(scene: &Scene, options: &RenderOptions) -> Result<(Self, Vec<String>)> {
-        let (mesh, mut notes) = on_first_device(options, || Tessellate { scene, options })?;
+        let (mesh, mut notes) = on_first_device(options, |entry| {
+            with_device(entry, options.threads, Tessellate { scene, options })
+        })?;
         let (mesh, own) = mesh?;
         notes.extend(own);
         Ok((mesh, notes))
@@ -152,6 +154,7 @@ impl Job for Tessellate<'_> {
         let Self { scene, options } = self;
         let seen = scene.for_device(&options.frame)?;
         let (plan, notes) = plan_on(&device, scene, options, seen.frame)?;
+        plan.can_tessellate().map_err(Error::Plan)?;
         let mesh = fetch(&mut device, &plan, scene, &seen).map_err(|error| Error::on_device(&error))?;
         Ok((mesh, notes))
     }
@@ -194,7 +197,7 @@ struct Placed {
 
 impl Placed {
     fn new(to_world: DAffine3) -> Self {
-        // The cofactors turn normals rightly even where the matrix cannot be inverted; a mirror keeps outside outside.
+        // Cofactors turn normals as triangles turn, in a mirror too, and where the matrix cannot be inverted.
         let [x, y, z] = [to_world.matrix3.x_axis, to_world.matrix3.y_axis, to_world.matrix3.z_axis];
         Self { to_world, normals: DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) }
     }

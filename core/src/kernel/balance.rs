@@ -47,7 +47,7 @@ impl Totals {
             processed: sum.processed + group.processed,
             culled: sum.culled + group.culled,
             limited: sum.limited + group.limited,
-            micropolygons: sum.micropolygons + group.micropolygons,
+            micropolygons: sum.micropolygons.wrapping_add(group.micropolygons),
             peak: sum.peak + group.peak,
         })
     }
@@ -101,7 +101,7 @@ pub const fn counted(control: Control, limits: &Limits, all: Totals) -> Control 
         culled: control.culled + all.culled,
         drawn: control.drawn + all.draws,
         limited: control.limited + all.limited,
-        micropolygons: control.micropolygons + all.micropolygons,
+        micropolygons: control.micropolygons.wrapping_add(all.micropolygons),
         overflow: (waiting + all.draws).saturating_sub(limits.draw_room),
     }
 }

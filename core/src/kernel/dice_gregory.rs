@@ -1,8 +1,8 @@
 //! Dicing of Gregory patches: as `dice.rs` does it, but the inner control points are another four at each
 //! vertex. On borders they have no weight, so border vertices are those of the net alone, bit by bit.
 
-use crate::abi::{Draw, FLAG_WEBER, Frame};
-use crate::kernel::dice::{Grid, LANES, finish_grid, prepare_grid, store};
+use crate::abi::{Draw, FLAG_WEBER, Frame, Object, Patch};
+use crate::kernel::dice::{Grid, LANES, dice, finish_grid, prepare_grid, store};
 use crate::num::{add, mul, scale3, sub};
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
 use crate::patch::gregory::{Blend, INNER, blends, weber_blends};
@@ -33,6 +33,20 @@ pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, draw: Draw, grid: &
         }
     }
     finish_grid(net, frame, draw, grid);
+}
+
+/// Dices a surface of any patch, seen as `object` is placed.
+#[inline(always)]
+pub fn dice_any(frame: &Frame, patches: &[Patch], object: &Object, draw: Draw, grid: &mut Grid) {
+    let patch = &patches[draw.patch_id as usize];
+    let net = Net::in_eye_space(patch, object);
+    match patch.faces {
+        0 => dice(&net, frame, draw, grid),
+        record => {
+            let faces = Faces::in_eye_space(&patches[record as usize], object);
+            dice_gregory(&net, &faces, frame, draw, grid);
+        }
+    }
 }
 
 /// A point of a patch and its derivatives along u and along v.

@@ -4,11 +4,10 @@
 //! A triangle two of whose corners are in the same place has collapsed: all its indices are that of its first corner,
 //! so that it can be told, and no rasteriser looks at it twice.
 
-use crate::abi::{Control, Draw, Frame, MeshPlace, MeshTotals, MeshVertex, Object, PARAM_STEP, Patch};
-use crate::kernel::dice::{Grid, dice};
-use crate::kernel::dice_gregory::dice_gregory;
-use crate::num::{float, mul};
-use crate::patch::{Faces, Net};
+use crate::abi::{Control, Draw, Frame, MeshPlace, MeshTotals, MeshVertex, Object, Patch};
+use crate::kernel::dice::Grid;
+use crate::kernel::dice_gregory::dice_any;
+use crate::patch::bezier::param;
 
 /// Indices of a micropolygon.
 pub const QUAD_INDICES: usize = 6;
@@ -62,15 +61,7 @@ pub fn mesh(
     vertices: &mut [MeshVertex],
     indices: &mut [u32],
 ) {
-    let patch = &patches[draw.patch_id as usize];
-    let net = Net::in_eye_space(patch, &AS_IT_IS);
-    match patch.faces {
-        0 => dice(&net, frame, draw, grid),
-        record => {
-            let faces = Faces::in_eye_space(&patches[record as usize], &AS_IT_IS);
-            dice_gregory(&net, &faces, frame, draw, grid);
-        }
-    }
+    dice_any(frame, patches, &AS_IT_IS, draw, grid);
     for (at, vertex) in vertices.iter_mut().enumerate() {
         *vertex = vertex_at(draw, grid, at);
     }
@@ -89,7 +80,7 @@ fn vertex_at(draw: Draw, grid: &Grid, at: usize) -> MeshVertex {
     MeshVertex {
         position: grid.point(at),
         normal: grid.unit_normal(at),
-        uv: [u, v].map(|t| mul(float(t as i32), PARAM_STEP)),
+        uv: [param(u), param(v)],
         patch_id: draw.patch_id,
     }
 }

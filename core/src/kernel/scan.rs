@@ -24,14 +24,14 @@ pub fn scan(
                 let [along_u, along_v] = verdict.rates();
                 draws += 1;
                 limited += (verdict.code == DRAW_LIMITED) as u32;
-                micropolygons += along_u * along_v;
+                micropolygons = along_u.wrapping_mul(along_v).wrapping_add(micropolygons);
             }
             _ => splits += 1,
         }
     }
     let control = Control {
         limited: control.limited + limited,
-        micropolygons: control.micropolygons + micropolygons,
+        micropolygons: control.micropolygons.wrapping_add(micropolygons),
         ..control
     };
     commit(control, splits, draws, stack_room, draw_room)

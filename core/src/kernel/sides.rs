@@ -4,7 +4,7 @@
 //! neighbours have bit by bit, in an order that is the same from either end. What is nearer than the near plane is
 //! taken at the near plane.
 
-use crate::abi::{DRAW_LIMITED, FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_BITS, PARAM_ONE, Surface};
+use crate::abi::{DRAW_LIMITED, FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_ONE, Surface};
 use crate::border::{SIDES, Side};
 use crate::kernel::bound::{Reach, distance, measured_point, point_on_screen};
 use crate::kernel::dice_gregory::evaluate_gregory;
@@ -67,8 +67,7 @@ pub fn divide(frame: &Frame, surface: Surface, lengths: &Lengths, code: u32) -> 
         let known = surface.side(side);
         let is_last = lengths.sides[side] <= frame.bound || code == DRAW_LIMITED;
         out[side] = if known.steps == 0 && is_last && frame.flags & FLAG_NAIVE == 0 {
-            let level = if side < 2 { surface.u_level() } else { surface.v_level() };
-            Side { steps: steps(frame, lengths.sides[side]), bits: PARAM_BITS - level }
+            Side { steps: steps(frame, lengths.sides[side]), bits: surface.extent_of(side).1 }
         } else {
             known
         };
@@ -84,12 +83,12 @@ pub fn rates(frame: &Frame, surface: Surface, sides: &[Side; 4], lengths: &Lengt
     if frame.flags & FLAG_FIXED != 0 {
         return [frame.rate; 2];
     }
-    let least = |length: f32, level: u32, [a, b]: [Side; 2]| {
-        let bits = PARAM_BITS - level;
-        steps(frame, length).max(a.steps_needed(bits)).max(b.steps_needed(bits))
+    let least = |length: f32, first: usize| {
+        let bits = surface.extent_of(first).1;
+        let needed = sides[first].steps_needed(bits).max(sides[first + 1].steps_needed(bits));
+        steps(frame, length).max(needed)
     };
-    let [a, b, c, d] = *sides;
-    [least(lengths.u, surface.u_level(), [a, b]), least(lengths.v, surface.v_level(), [c, d])]
+    [least(lengths.u, 0), least(lengths.v, 2)]
 }
 
 /// Lengths of the sides of a surface of a Gregory patch: a side on the patch's edge as it is in `lengths`, as if

@@ -3,8 +3,10 @@
 
 pub mod adaptive;
 mod bounded;
+mod depth_first;
 
 pub use bounded::{Bounded, Step};
+pub use depth_first::for_each_draw;
 
 /// How the stack is worked off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
