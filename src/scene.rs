@@ -4,7 +4,9 @@ use std::path::Path;
 
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{Frame, MAX_COORDINATE, Object, Patch};
-use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
+use micropoly_core::adjacency::{find_owners, room_needed};
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
+use micropoly_core::displacement::{Displacement, Unfit};
 
 use crate::error::{Error, Result};
 use crate::gregory::GregoryPatch;
@@ -36,6 +38,8 @@ pub struct SceneObject {
     pub to_world: DAffine3,
     /// Its looks.
     pub material: Material,
+    /// Bumps by which its vertices are moved.
+    pub displacement: Option<Displacement>,
 }
 
 /// All there is to see, and from where.
@@ -75,6 +79,41 @@ impl SceneObject {
         self.patches.len() + self.gregory.len()
     }
 
+    /// The largest magnitude among the coordinates of its control points.
+    fn extent(&self) -> f64 {
+        self.points().flatten().fold(0.0, |most: f64, c| most.max(f64::from(c.abs())))
+    }
+
+    /// Can it be displaced as it is to be?
+    ///
+    /// # Errors
+    /// The problem, and a remedy.
+    pub(crate) fn check_displacement(&self) -> std::result::Result<(), (&'static str, &'static str)> {
+        let Some(displacement) = &self.displacement else { return Ok(()) };
+        displacement.check(self.extent()).map_err(|unfit| match unfit {
+            Unfit::Number => (
+                "a displacement with numbers that are out of range",
+                "height and frequency must be above 0, octaves 1 to 8",
+            ),
+            Unfit::Steep => {
+                ("a displacement that is steeper than 1000000", "choose a smaller height or frequency")
+            }
+            Unfit::Fine => (
+                "a displacement with more than a million bumps from the object's origin to its end",
+                "choose a smaller frequency or fewer octaves",
+            ),
+        })
+    }
+
+    /// As devices read it.
+    fn placed(&self, camera: &Camera) -> Object {
+        let object = camera.object(self.to_world, &self.material);
+        match &self.displacement {
+            Some(displacement) => object.displaced(displacement, self.extent()),
+            None => object,
+        }
+    }
+
     fn points(&self) -> impl Iterator<Item = [f32; 3]> {
         let bezier = self.patches.iter().flat_map(|patch| patch.points);
         bezier.chain(self.gregory.iter().flat_map(|patch| patch.points))
@@ -110,8 +149,8 @@ impl Scene {
     /// [`Error::Scene`] if the patches lie too far out to be seen at all.
     pub fn around(name: String, patches: Vec<BezierPatch>) -> Result<Self> {
         let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5 };
-        let objects =
-            vec![SceneObject { patches, gregory: Vec::new(), to_world: DAffine3::IDENTITY, material }];
+        let (gregory, to_world, displacement) = (Vec::new(), DAffine3::IDENTITY, None);
+        let objects = vec![SceneObject { patches, gregory, to_world, material, displacement }];
         let (low, high) = bounds_of(&objects);
         let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = if radius > 0.0 { radius } else { 1.0 };
@@ -182,6 +221,23 @@ impl Scene {
         Err(Error::scene("a colour is negative or not finite", "use values from 0"))
     }
 
+    /// Is any object displaced?
+    #[must_use]
+    pub fn is_displaced(&self) -> bool {
+        self.objects.iter().any(|object| object.displacement.is_some())
+    }
+
+    fn check_displacements(&self, options: &FrameOptions) -> Result<()> {
+        for object in &self.objects {
+            object.check_displacement().map_err(|(problem, remedy)| Error::scene(problem, remedy))?;
+        }
+        if self.is_displaced() && options.profile == Profile::Weber2014 {
+            let problem = "an object is displaced, which the rules of Weber's program do not know";
+            return Err(Error::scene(problem, "leave out --profile weber2014, or the displacement"));
+        }
+        Ok(())
+    }
+
     /// The scene as devices read it.
     ///
     /// # Errors
@@ -197,6 +253,7 @@ impl Scene {
         }
         check_options(options)?;
         self.check_colours()?;
+        self.check_displacements(options)?;
         if !camera.is_usable(options.height) {
             return Err(Error::scene(
                 "the camera's near plane or field of view is out of range",
@@ -207,7 +264,7 @@ impl Scene {
         let (mut patches, mut faces) = (Vec::with_capacity(count + self.gregory_count()), Vec::new());
         let mut objects = Vec::with_capacity(self.objects.len());
         for (index, object) in self.objects.iter().enumerate() {
-            let placed = camera.object(object.to_world, &object.material);
+            let placed = object.placed(camera);
             check_extent(&placed, object)?;
             objects.push(placed);
             let index = index as u32;
@@ -218,13 +275,17 @@ impl Scene {
             }
         }
         patches.append(&mut faces);
+        if self.is_displaced() {
+            let mut room = vec![0; room_needed(&patches)];
+            find_owners(&mut patches, &mut room);
+        }
         Ok(DeviceScene { frame: camera.frame(options, self.ambient, &self.lights), objects, patches })
     }
 }
 
 fn device_patch(points: [[f32; 3]; 16], object: u32, faces: u32) -> Patch {
     let axis = |k: usize| points.map(|point| point[k]);
-    Patch { x: axis(0), y: axis(1), z: axis(2), object, faces }
+    Patch { x: axis(0), y: axis(1), z: axis(2), object, faces, ..Patch::default() }
 }
 
 fn bounds_of(objects: &[SceneObject]) -> (DVec3, DVec3) {

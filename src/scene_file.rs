@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly_core::abi::{MAX_LIGHTS, MIN_NEAR};
 use micropoly_core::camera::{Camera, Light, Material};
+use micropoly_core::displacement::Displacement;
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -82,6 +83,20 @@ struct ObjectTable {
     colour: Option<Spanned<ColourValue>>,
     specular: Option<Spanned<f64>>,
     shininess: Option<Spanned<u32>>,
+    displacement: Option<Spanned<DisplacementTable>>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DisplacementTable {
+    height: f64,
+    frequency: f64,
+    #[serde(default = "one")]
+    octaves: u32,
+}
+
+const fn one() -> u32 {
+    1
 }
 
 #[derive(Deserialize)]
@@ -291,7 +306,15 @@ impl Place<'_> {
             gregory.iter_mut().for_each(GregoryPatch::reverse);
         }
         let (to_world, material) = (self.transform(object)?, self.material(object)?);
-        Ok(SceneObject { patches, gregory, to_world, material })
+        let displacement = object.displacement.as_ref().map(|table| {
+            let DisplacementTable { height, frequency, octaves } = *table.get_ref();
+            Displacement { height: height as f32, frequency: frequency as f32, octaves }
+        });
+        let made = SceneObject { patches, gregory, to_world, material, displacement };
+        match (made.check_displacement(), &object.displacement) {
+            (Err((problem, remedy)), Some(table)) => Err(self.wrong(table, problem, remedy)),
+            _ => Ok(made),
+        }
     }
 
     fn shape(&self, table: &Spanned<ObjectTable>) -> Result<(Vec<BezierPatch>, Vec<GregoryPatch>)> {

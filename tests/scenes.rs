@@ -46,6 +46,7 @@ fn ball(camera: Camera) -> Scene {
             gregory: Vec::new(),
             to_world: glam::DAffine3::IDENTITY,
             material,
+            displacement: None,
         }],
     }
 }

@@ -37,6 +37,7 @@ fn extreme_scene(random: &mut fastrand::Rng) -> Option<Scene> {
             gregory: Vec::new(),
             to_world: glam::DAffine3::IDENTITY,
             material,
+            displacement: None,
         }],
     })
 }

@@ -246,7 +246,8 @@ fn objects_are_placed_in_the_world_and_triangles_face_as_their_normals_do() {
     );
     let material = Material { colour: Vec3::ONE, specular: 0.0, gloss: 0 };
     let SceneObject { patches, .. } = scene.objects.remove(0);
-    scene.objects = vec![SceneObject { patches, gregory: Vec::new(), to_world, material }];
+    scene.objects =
+        vec![SceneObject { patches, gregory: Vec::new(), to_world, material, displacement: None }];
     (scene.camera, _) = look_around(&scene, &mut fastrand::Rng::with_seed(74));
     let mesh = mesh_of(&scene, &small());
     assert_eq!(mesh.open_edges(), 0);

@@ -174,16 +174,20 @@ const MESH_CHUNK: usize = 4096;
 
 pub(crate) fn mesh(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>, count: u32) -> Result<(), CpuError> {
     let frame = buffers[0].view::<Frame>()?[0];
-    let patches = buffers[1].view::<Patch>()?;
-    let draws = buffers[2].view::<Draw>()?;
-    let places = buffers[3].view::<MeshPlace>()?;
-    let (mut vertices, mut indices) = (buffers[4].view_mut::<MeshVertex>()?, buffers[5].view_mut::<u32>()?);
-    let (patches, draws, places) = (&*patches, &draws[..count as usize], &places[..count as usize]);
+    let objects = buffers[1].view::<Object>()?;
+    let patches = buffers[2].view::<Patch>()?;
+    let draws = buffers[3].view::<Draw>()?;
+    let places = buffers[4].view::<MeshPlace>()?;
+    let (mut vertices, mut indices) = (buffers[5].view_mut::<MeshVertex>()?, buffers[6].view_mut::<u32>()?);
+    let (objects, patches) = (&*objects, &*patches);
+    let (draws, places) = (&draws[..count as usize], &places[..count as usize]);
     for (draws, places) in draws.chunks(MESH_CHUNK).zip(places.chunks(MESH_CHUNK)) {
         let parts: Vec<_> = pool.install(|| {
             let each = draws.par_iter().zip(places);
-            each.map_init(Grid::default, |grid, (draw, place)| mesh_one(&frame, patches, *draw, *place, grid))
-                .collect()
+            each.map_init(Grid::default, |grid, (draw, place)| {
+                mesh_one(&frame, objects, patches, *draw, *place, grid)
+            })
+            .collect()
         });
         for (place, (own_vertices, own_indices)) in places.iter().zip(parts) {
             vertices[place.vertex as usize..][..own_vertices.len()].copy_from_slice(&own_vertices);
@@ -199,6 +203,7 @@ pub(crate) fn mesh(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>, count: u3
 ))]
 fn mesh_one(
     frame: &Frame,
+    objects: &[Object],
     patches: &[Patch],
     draw: Draw,
     place: MeshPlace,
@@ -206,7 +211,7 @@ fn mesh_one(
 ) -> (Vec<MeshVertex>, Vec<u32>) {
     let mut vertices = vec![MeshVertex::default(); draw.vertices() as usize];
     let mut indices = vec![0; draw.triangles() as usize * QUAD_INDICES / 2];
-    mesh::mesh(frame, patches, draw, place, grid, &mut vertices, &mut indices);
+    mesh::mesh(frame, objects, patches, draw, place, grid, &mut vertices, &mut indices);
     (vertices, indices)
 }
 

@@ -10,11 +10,13 @@ use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
     CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, Limits,
-    MAX_LEVELS, MAX_RATE, MAX_SPLITS, MeshPlace, MeshTotals, MeshVertex, Object, PARAM_BITS, PARAM_ONE,
-    Patch, SPLIT_U, SPLIT_V, Sample, Shared, Slot, Surface, Verdict,
+    MAX_LEVELS, MAX_OCTAVES, MAX_RATE, MAX_SPLITS, MeshPlace, MeshTotals, MeshVertex, Object, PARAM_BITS,
+    PARAM_ONE, Patch, SPLIT_U, SPLIT_V, Sample, Shared, Slot, Surface, Verdict,
 };
+use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::border::{SIDES, Side};
 use micropoly_core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile};
+use micropoly_core::displacement::Displacement;
 use micropoly_core::kernel::bound::bound_any;
 use micropoly_core::kernel::mesh;
 use micropoly_core::kernel::scan::scan;
@@ -274,19 +276,56 @@ fn divided(random: &mut fastrand::Rng, surface: Surface, code: u32, seldom: u32,
     Verdict { code, ..Verdict::default() }.with_sides(sides, rates)
 }
 
-/// Number of patches of a scene; every third is a Gregory patch in half of all scenes.
+/// Number of patches of a scene; every third is a Gregory patch in half of all scenes, and half of them are displaced in
+/// a third.
 const PATCHES: u32 = 24;
 
 fn scene(random: &mut fastrand::Rng) -> (Frame, Vec<Object>, Vec<Patch>) {
-    let (frame, objects) = view(random);
+    let (frame, mut objects) = view(random);
     let mut patches: Vec<Patch> = (0..PATCHES).map(|_| patch(random)).collect();
+    let is_displaced = random.u8(0..3) == 0;
+    if is_displaced {
+        join(random, &mut patches);
+    }
     if random.bool() {
         for index in (0..PATCHES as usize).step_by(3) {
             patches[index].faces = patches.len() as u32;
             patches.push(faces(random, &patches[index]));
         }
     }
+    if is_displaced {
+        objects[1] = displaced(random, objects[1]);
+        let mut room = vec![0; room_needed(&patches)];
+        find_owners(&mut patches, &mut room);
+    }
     (frame, objects, patches)
+}
+
+/// An object with bumps, now and then as coarse and high as the whole scene.
+fn displaced(random: &mut fastrand::Rng, object: Object) -> Object {
+    let height = [0.01, 0.2, 1.0][random.usize(0..3)];
+    let frequency = [0.7, 5.0, 300.0][random.usize(0..3)];
+    object.displaced(&Displacement { height, frequency, octaves: random.u32(1..=MAX_OCTAVES) }, 2.0)
+}
+
+/// Lets patches share all edges with the one before them, however turned.
+fn join(random: &mut fastrand::Rng, patches: &mut [Patch]) {
+    for index in 1..patches.len() {
+        let shared = patches[index - 1];
+        let (is_turned, is_reversed) = (random.bool(), random.bool());
+        let from = |k: usize| {
+            let k = if is_turned { 4 * (k % 4) + 3 - k / 4 } else { k };
+            if is_reversed { 15 - k } else { k }
+        };
+        if random.bool() {
+            let patch = &mut patches[index];
+            patch.object = shared.object;
+            for k in (0..16).filter(|k| !INNER.contains(k)) {
+                (patch.x[k], patch.y[k], patch.z[k]) =
+                    (shared.x[from(k)], shared.y[from(k)], shared.z[from(k)]);
+            }
+        }
+    }
 }
 
 /// Face points around the inner points of a patch: far from them, near them, or all there.
@@ -493,12 +532,13 @@ fn mesh_places(random: &mut fastrand::Rng) -> Parts {
 }
 
 fn meshes(random: &mut fastrand::Rng) -> Parts {
-    let (frame, _, patches) = scene(random);
+    let (frame, objects, patches) = scene(random);
     let before = MeshTotals { vertices: random.u32(0..50), triangles: random.u32(0..50) };
     let count = random.u32(1..60);
     let (draws, places, totals) = placed(random, count, before);
     let buffers = vec![
         words(&[frame]),
+        words(&objects),
         words(&patches),
         words(&draws),
         words(&places),

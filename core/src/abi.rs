@@ -99,6 +99,32 @@ shared_constants! {
     /// Smallest squared length of a vector that is normalised for shading.
     const SHADE_TINY: f32 = 1.0e-30;
 
+    /// Where a word of [`Patch::owners`] has one more than the owner's number, above its side or corner.
+    const OWNER_SHIFT: u32 = 4;
+    /// Bit of a word of [`Patch::owners`]: the owner is a corner, bits 1 and 2; else it is a side.
+    const OWNER_IS_CORNER: u32 = 8;
+    /// Bit of a word of [`Patch::owners`]: the owner's side runs the other way.
+    const OWNER_IS_REVERSED: u32 = 1;
+
+    /// Most times that bumps are added, each twice as fine as the last.
+    const MAX_OCTAVES: u32 = 8;
+    /// Bumps repeat farther than so many of them from the origin.
+    const LATTICE_END: f32 = (1 << 22) as f32;
+    /// Heights of bumps are multiples of this.
+    const LATTICE_STEP: f32 = 1.0 / (1 << 23) as f32;
+    /// Factors of the hash of a point of the lattice (after Teschner et al. 2003), and of the octave.
+    const HASH_X: u32 = 73_856_093;
+    /// See [`HASH_X`].
+    const HASH_Y: u32 = 19_349_663;
+    /// See [`HASH_X`].
+    const HASH_Z: u32 = 83_492_791;
+    /// See [`HASH_X`].
+    const HASH_OCTAVE: u32 = 0x9e37_79b9;
+    /// First factor that mixes a hash (Wellons 2018, "lowbias32").
+    const HASH_FIRST: u32 = 0x7feb_352d;
+    /// Second factor.
+    const HASH_SECOND: u32 = 0x846c_a68b;
+
     /// Surfaces that a group of LOCAL bounds at once.
     const LOCAL_BATCH: u32 = 64;
     /// Batches that a group of LOCAL takes at most before surfaces are dealt out anew.
@@ -275,6 +301,9 @@ shared_structs! {
         /// 0 for a Bézier patch; for a Gregory patch the index of the record that holds its face points, behind
         /// all patches. Its inner control points are then the means of two face points each.
         faces: u32,
+        /// A word a side, then a word a corner: the patch whose vertices they are, if it is another one, or else 0 (see
+        /// [`crate::patch::owner`]). Only displacement looks at it.
+        owners: [u32; 8],
     }
 
     /// Where an object stands and what it is made of.
@@ -287,6 +316,16 @@ shared_structs! {
         specular: f32,
         /// The highlight is `cosine^(2^gloss)`.
         gloss: u32,
+        /// How far displacement can move a point along any axis of eye space, rounding included; 0 = there is none.
+        reach: f32,
+        /// Largest displacement by the coarsest bumps, object units (see [`crate::kernel::displace`]).
+        height: f32,
+        /// So many of them on a unit of length in object space.
+        frequency: f32,
+        /// How often bumps are added, twice as fine and half as high as the last.
+        octaves: u32,
+        /// Turns normals from object space to eye space, 3 rows of 3: the transform's cofactors, scaled.
+        normal_to_eye: [f32; 9],
     }
 
     /// Everything a stage needs to know about camera, image, lights and limits.

@@ -248,6 +248,6 @@ impl Camera {
             rows[4 * row + 3] = to_eye.translation[row] as f32;
         }
         let Material { colour, specular, gloss } = *material;
-        Object { to_eye: rows, colour: colour.to_array(), specular, gloss }
+        Object { to_eye: rows, colour: colour.to_array(), specular, gloss, ..Object::default() }
     }
 }

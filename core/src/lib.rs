@@ -13,6 +13,7 @@
 //! | children back to the stack, the rest to be drawn | [`kernel::split::split`] | `kernel/split.rs` |
 //! | a drawn surface becomes a grid of vertices | [`kernel::dice::dice`] | `kernel/dice.rs` |
 //! | the same for a Gregory patch | [`kernel::dice_gregory::dice_gregory`] | `kernel/dice_gregory.rs`, `patch/gregory.rs` |
+//! | the same where vertices are displaced | [`kernel::displace::dice_displaced`] | `kernel/displace.rs`, `patch/owner.rs` |
 //! | a colour a vertex | [`kernel::shade::shade`] | `kernel/shade.rs` |
 //! | micropolygons become samples | [`kernel::sample::sample`] | `kernel/sample.rs` |
 //! | who calls what, in which order | [`schedule::Bounded`], [`render::FramePlan`] | `schedule/`, `render.rs` |
@@ -24,9 +25,11 @@
 #![no_std]
 
 pub mod abi;
+pub mod adjacency;
 pub mod backend;
 pub mod border;
 pub mod camera;
+pub mod displacement;
 pub mod error;
 pub mod kernel;
 pub mod known;

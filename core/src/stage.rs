@@ -218,6 +218,7 @@ impl Stage {
                 const {
                     &[
                         read::<Frame>("frame"),
+                        read::<Object>("objects"),
                         read::<Patch>("patches"),
                         read::<Draw>("draws"),
                         read::<MeshPlace>("places"),

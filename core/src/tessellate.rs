@@ -118,7 +118,7 @@ fn mesh_draws<D: Device>(
     device.read(totals, 0, &mut after)?;
     let draws = control[0].waiting + control[0].fresh;
     if let (Some((vertices, indices)), 1..) = (mesh, draws) {
-        let all = [&b.frame, &b.patches, &b.draws, places, vertices, indices];
+        let all = [&b.frame, &b.objects, &b.patches, &b.draws, places, vertices, indices];
         device.dispatch(Stage::Mesh, Items::Count(draws), &all)?;
     }
     Ok(after[0])

@@ -8,7 +8,9 @@ use std::collections::HashMap;
 use common::{between, random, view};
 use glam::{DVec3, Vec3};
 use micropoly_core::abi::{Draw, FLAG_NAIVE, FLAG_WHOLE, Frame, Object, Patch};
+use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::camera::Camera;
+use micropoly_core::displacement::Displacement;
 use micropoly_core::kernel::dice::Grid;
 use micropoly_core::kernel::dice_gregory::dice_any;
 use micropoly_core::patch::gregory::patch_count;
@@ -172,6 +174,34 @@ fn closed_meshes_stay_closed() {
         assert!(tally.open == 0, "round {round}: {tally:?}");
         assert!(tally.collapsed * 10 < tally.triangles, "round {round}: {tally:?}");
     }
+}
+
+/// Bumps, small and large beside a unit sphere, coarse and fine.
+fn bumps(random: &mut fastrand::Rng) -> Displacement {
+    let (height, frequency) = ([0.02, 0.3][random.usize(0..2)], between(random, 0.5, 20.0));
+    Displacement { height, frequency, octaves: random.u32(1..=4) }
+}
+
+#[test]
+fn closed_meshes_stay_closed_when_they_are_displaced() {
+    let mut random = random(3);
+    let mut unowned = 0;
+    for round in 0..120 {
+        let (n, rough) = ([1, 2, 3][round / 3 % 3], [0.05, 0.3, 1.0][round % 3]);
+        let mut patches = closed(&mut random, n, rough, round % 2 == 1);
+        let (mut frame, object) = view(&camera(&mut random), 160, 120);
+        frame.levels = 41;
+        frame.flags |= FLAG_WHOLE;
+        let object = object.displaced(&bumps(&mut random), 4.0);
+        if round < 6 {
+            unowned += tally(&frame, &object, &patches).open;
+        }
+        let mut room = vec![0; room_needed(&patches)];
+        find_owners(&mut patches, &mut room);
+        let tally = tally(&frame, &object, &patches);
+        assert!(tally.open == 0, "round {round}: {tally:?}");
+    }
+    assert!(unowned > 10_000, "without owners there must be cracks: {unowned}");
 }
 
 #[test]

@@ -99,7 +99,7 @@ fn objects(path: &Path, file: &Mscene) -> Result<Vec<SceneObject>> {
         }
         let material = Material { colour: entry.colour, specular: 0.0, gloss: 0 };
         let to_world = entry.placement.to_world();
-        objects.push(SceneObject { patches, gregory, to_world, material });
+        objects.push(SceneObject { patches, gregory, to_world, material, displacement: None });
     }
     Ok(objects)
 }

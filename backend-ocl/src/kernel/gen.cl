@@ -22,6 +22,18 @@
 #define INNER_MOST 4.4444445e-1f
 #define THIRD 3.3333334e-1f
 #define SHADE_TINY 1e-30f
+#define OWNER_SHIFT 4u
+#define OWNER_IS_CORNER 8u
+#define OWNER_IS_REVERSED 1u
+#define MAX_OCTAVES 8u
+#define LATTICE_END 4.194304e6f
+#define LATTICE_STEP 1.1920929e-7f
+#define HASH_X 73856093u
+#define HASH_Y 19349663u
+#define HASH_Z 83492791u
+#define HASH_OCTAVE 2654435769u
+#define HASH_FIRST 2146121005u
+#define HASH_SECOND 2221713035u
 #define LOCAL_BATCH 64u
 #define LOCAL_BATCHES 8u
 #define LOCAL_DRAWS 512u
@@ -48,6 +60,7 @@ typedef struct {
     float z[16];
     uint object;
     uint faces;
+    uint owners[8];
 } Patch;
 
 typedef struct {
@@ -55,6 +68,11 @@ typedef struct {
     float colour[3];
     float specular;
     uint gloss;
+    float reach;
+    float height;
+    float frequency;
+    uint octaves;
+    float normal_to_eye[9];
 } Object;
 
 typedef struct {

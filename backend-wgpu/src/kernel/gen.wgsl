@@ -22,6 +22,18 @@ const PARALLEL: f32 = 5.9604645e-8f;
 const INNER_MOST: f32 = 4.4444445e-1f;
 const THIRD: f32 = 3.3333334e-1f;
 const SHADE_TINY: f32 = 1e-30f;
+const OWNER_SHIFT: u32 = 4u;
+const OWNER_IS_CORNER: u32 = 8u;
+const OWNER_IS_REVERSED: u32 = 1u;
+const MAX_OCTAVES: u32 = 8u;
+const LATTICE_END: f32 = 4.194304e6f;
+const LATTICE_STEP: f32 = 1.1920929e-7f;
+const HASH_X: u32 = 73856093u;
+const HASH_Y: u32 = 19349663u;
+const HASH_Z: u32 = 83492791u;
+const HASH_OCTAVE: u32 = 2654435769u;
+const HASH_FIRST: u32 = 2146121005u;
+const HASH_SECOND: u32 = 2221713035u;
 const LOCAL_BATCH: u32 = 64u;
 const LOCAL_BATCHES: u32 = 8u;
 const LOCAL_DRAWS: u32 = 512u;
@@ -48,6 +60,7 @@ struct Patch {
     z: array<f32, 16>,
     object: u32,
     faces: u32,
+    owners: array<u32, 8>,
 }
 
 struct Object {
@@ -55,6 +68,11 @@ struct Object {
     colour: array<f32, 3>,
     specular: f32,
     gloss: u32,
+    reach: f32,
+    height: f32,
+    frequency: f32,
+    octaves: u32,
+    normal_to_eye: array<f32, 9>,
 }
 
 struct Frame {

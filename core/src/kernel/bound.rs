@@ -57,6 +57,8 @@ struct Hull {
     part: Net,
     /// What rounding can do, in eye space.
     slack: f32,
+    /// What displacement can do, along any axis of eye space.
+    reach: f32,
     /// Only for a Gregory patch.
     apart: Option<Apart>,
 }
@@ -75,7 +77,7 @@ impl Hull {
     fn of_bezier(patch: &Patch, object: &Object, surface: Surface) -> Self {
         let whole = Net::in_eye_space(patch, object);
         let slack = mul(whole.extent(), ROUNDING);
-        Self { part: whole.restricted(surface), whole, slack, apart: None }
+        Self { part: whole.restricted(surface), whole, slack, reach: object.reach, apart: None }
     }
 
     #[inline(always)]
@@ -88,14 +90,15 @@ impl Hull {
         let part = whole.restricted(surface);
         let mut follower = part;
         faces.follow(&mut follower, surface, exchanged);
-        Self { whole, part, slack, apart: Some(Apart { faces, spread, follower }) }
+        Self { whole, part, slack, reach: object.reach, apart: Some(Apart { faces, spread, follower }) }
     }
 
+    /// Largest distance, along any axis, between what is drawn and the surface whose hull it is.
     #[inline(always)]
     fn spread(&self) -> f32 {
         match &self.apart {
-            Some(apart) => apart.spread,
-            None => 0.0,
+            Some(apart) => add(apart.spread, self.reach),
+            None => self.reach,
         }
     }
 
@@ -115,8 +118,8 @@ impl Hull {
     #[inline(always)]
     fn strays(&self, frame: &Frame, surface: Surface) -> Option<Strays> {
         match &self.apart {
-            None => Strays::of(frame, surface, |u, v| position_at(&self.whole, u, v)),
-            Some(apart) => Strays::of(frame, surface, |u, v| {
+            None => Strays::of(frame, surface, self.reach, |u, v| position_at(&self.whole, u, v)),
+            Some(apart) => Strays::of(frame, surface, self.reach, |u, v| {
                 evaluate_gregory(&self.whole, &apart.faces, frame, u, v).point
             }),
         }
@@ -125,13 +128,9 @@ impl Hull {
     /// What the image shows of a hull that lies beyond the near plane, `nearest` away.
     #[inline(always)]
     fn seen(&self, frame: &Frame, nearest: f32, x: &[f32; 16], y: &[f32; 16]) -> Seen {
-        let wobble = match &self.apart {
-            None => 0.0,
-            Some(apart) => {
-                let off_axis = max(largest(x), largest(y));
-                mul(mul(add(frame.focal, off_axis), apart.spread), recip(nearest))
-            }
-        };
+        let spread = self.spread();
+        let wobble =
+            if spread > 0.0 { wobble(frame, max(largest(x), largest(y)), spread, nearest) } else { 0.0 };
         let margin = add(margin(frame, self.slack, nearest), wobble);
         Seen { x: Reach::of(x), y: Reach::of(y), margin }
     }
@@ -155,6 +154,13 @@ pub(super) fn margin(frame: &Frame, slack: f32, nearest: f32) -> f32 {
     add(1.0, mul(mul(frame.focal, slack), recip(nearest)))
 }
 
+/// How far, in pixels, points up to `off_axis` pixels from the axis move on screen if they move by `spread` along any
+/// axis, and come no nearer than `nearest`.
+#[inline(always)]
+pub(super) fn wobble(frame: &Frame, off_axis: f32, spread: f32, nearest: f32) -> f32 {
+    mul(mul(add(frame.focal, off_axis), spread), recip(nearest))
+}
+
 /// Least and largest of one coordinate on screen, in pixels from the optical axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
@@ -168,9 +174,10 @@ impl Reach {
         Self { low: fold(offsets, min), high: fold(offsets, max) }
     }
 
+    /// As far as `by` around one place.
     #[inline(always)]
-    pub(super) const fn at(offset: f32) -> Self {
-        Self { low: offset, high: offset }
+    pub(super) const fn around(offset: f32, by: f32) -> Self {
+        Self { low: sub(offset, by), high: add(offset, by) }
     }
 
     /// Both, and all that lies between them.

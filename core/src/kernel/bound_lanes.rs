@@ -102,7 +102,7 @@ impl Lanes {
         let mut known = None;
         for (l, surface) in surfaces.iter().enumerate() {
             let patch = &patches[surface.patch_id as usize];
-            self.alone[l] = patch.faces > 0;
+            self.alone[l] = patch.faces > 0 || objects[patch.object as usize].reach > 0.0;
             // Neighbours on the stack are mostly of one patch.
             let (_, net, slack) = match known {
                 Some(last @ (patch_id, _, _)) if patch_id == surface.patch_id => last,
@@ -241,12 +241,12 @@ fn polygons(seen: &[Points; 2], first: [usize; 4], step: usize, out: &mut [Lane;
     }
 }
 
-/// Corners that have strayed from a surface of a Bézier patch.
+/// Corners that have strayed from a surface of a Bézier patch that is not displaced.
 #[inline(never)]
 fn strays(frame: &Frame, objects: &[Object], patches: &[Patch], surface: Surface) -> Option<Strays> {
     let patch = &patches[surface.patch_id as usize];
     let net = Net::in_eye_space(patch, &objects[patch.object as usize]);
-    Strays::of(frame, surface, |u, v| position_at(&net, u, v))
+    Strays::of(frame, surface, 0.0, |u, v| position_at(&net, u, v))
 }
 
 /// The points of one lane.

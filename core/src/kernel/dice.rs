@@ -67,6 +67,14 @@ impl Grid {
         (0..self.stride * self.rows).step_by(LANES)
     }
 
+    /// Puts position and unit normal of a vertex.
+    #[inline(always)]
+    pub(super) fn put(&mut self, at: usize, point: [f32; 3], normal: [f32; 3]) {
+        for k in 0..3 {
+            (self.position[k][at], self.normal[k][at]) = (point[k], normal[k]);
+        }
+    }
+
     /// Eye-space position of a vertex.
     #[inline(always)]
     #[must_use]
@@ -195,9 +203,18 @@ pub(super) fn prepare_grid(draw: Draw, grid: &mut Grid) {
 pub(super) fn finish_grid(net: &Net, frame: &Frame, draw: Draw, grid: &mut Grid) {
     let flat = mul(size(net), FLAT);
     for block in grid.blocks() {
-        finish(frame, block, flat, grid);
+        find_normals(block, flat, grid);
+        project_block(frame, block, grid);
     }
     mend_normals(net, draw, flat, grid);
+}
+
+/// Snapped vertices, from positions.
+#[inline(always)]
+pub(super) fn project_all(frame: &Frame, grid: &mut Grid) {
+    for block in grid.blocks() {
+        project_block(frame, block, grid);
+    }
 }
 
 /// Bernstein weights of vertices along one side of a grid, an array a weight.
@@ -325,9 +342,9 @@ fn evaluate(curve: &IsoCurve, columns: &Weights<LANES>, at: usize, grid: &mut Gr
     }
 }
 
-/// Normals and snapped vertices of [`LANES`] vertices.
+/// Normals of [`LANES`] vertices.
 #[inline(always)]
-fn finish(frame: &Frame, block: usize, flat: f32, grid: &mut Grid) {
+fn find_normals(block: usize, flat: f32, grid: &mut Grid) {
     let (du, dv) = (load3(&grid.tangents[0], block), load3(&grid.tangents[1], block));
     let mut normal = [[0.0; LANES]; 3];
     for l in 0..LANES {
@@ -337,6 +354,11 @@ fn finish(frame: &Frame, block: usize, flat: f32, grid: &mut Grid) {
     for (all, lanes) in grid.normal.iter_mut().zip(&normal) {
         store(all, block, lanes);
     }
+}
+
+/// [`LANES`] snapped vertices.
+#[inline(always)]
+fn project_block(frame: &Frame, block: usize, grid: &mut Grid) {
     let point = load3(&grid.position, block);
     let (mut x, mut y, mut w) = ([0; LANES], [0; LANES], [0.0; LANES]);
     for l in 0..LANES {
@@ -352,15 +374,45 @@ fn finish(frame: &Frame, block: usize, flat: f32, grid: &mut Grid) {
 #[inline(always)]
 #[must_use]
 pub fn position_at(net: &Net, u: u32, v: u32) -> [f32; 3] {
+    evaluate_bezier(net, u, v).point
+}
+
+/// A point of a patch and its derivatives along u and along v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Position, in the space of the control points.
+    pub point: [f32; 3],
+    /// Derivative along u.
+    pub du: [f32; 3],
+    /// Derivative along v.
+    pub dv: [f32; 3],
+}
+
+/// A vertex of a Bézier patch by itself: the same bits as in a grid.
+#[inline(always)]
+#[must_use]
+pub fn evaluate_bezier(net: &Net, u: u32, v: u32) -> Vertex {
     let (row, column) = (Weights::<1>::at(v), Weights::<1>::at(u));
     let curve = IsoCurves::new(net, &row).at(0);
-    let at = column.cubic_at(0);
-    [blend4(at, curve.point[0]), blend4(at, curve.point[1]), blend4(at, curve.point[2])]
+    let (cubic, slope) = (column.cubic_at(0), column.slope_at(0));
+    Vertex {
+        point: curve.point.map(|point| blend4(cubic, point)),
+        du: curve.along.map(|along| blend3(slope, along)),
+        dv: curve.across.map(|across| blend4(cubic, across)),
+    }
+}
+
+/// The unit normal of a vertex, or one from nearby where it vanishes.
+#[inline(always)]
+#[must_use]
+pub fn normal_of(net: &Net, vertex: &Vertex, u: u32, v: u32, flat: f32) -> [f32; 3] {
+    let normal = unit_normal(vertex.du, vertex.dv, flat);
+    if largest3(normal) < 0.5 { normal_nearby(net, u, v, flat) } else { normal }
 }
 
 /// Largest side of the box around the control points.
 #[inline(always)]
-fn size(net: &Net) -> f32 {
+pub(super) fn size(net: &Net) -> f32 {
     max(max(side(&net.x), side(&net.y)), side(&net.z))
 }
 
@@ -415,11 +467,7 @@ fn mend_each(net: &Net, draw: Draw, flat: f32, grid: &mut Grid) {
 #[must_use]
 pub fn normal_nearby(net: &Net, u: u32, v: u32, flat: f32) -> [f32; 3] {
     let inward = |t: u32| t - t / 64 + PARAM_ONE / 128;
-    let (row, column) = (Weights::<1>::at(inward(v)), Weights::<1>::at(inward(u)));
-    let curve = IsoCurves::new(net, &row).at(0);
-    let (cubic, slope) = (column.cubic_at(0), column.slope_at(0));
-    let du = curve.along.map(|along| blend3(slope, along));
-    let dv = curve.across.map(|across| blend4(cubic, across));
+    let Vertex { du, dv, .. } = evaluate_bezier(net, inward(u), inward(v));
     let nearby = unit_normal(du, dv, flat);
     if largest3(nearby) > 0.5 {
         return nearby;

@@ -2,7 +2,8 @@
 //! vertex. On borders they have no weight, so border vertices are those of the net alone, bit by bit.
 
 use crate::abi::{Draw, FLAG_WEBER, Frame, Object, Patch};
-use crate::kernel::dice::{Grid, LANES, dice, finish_grid, prepare_grid, store};
+use crate::kernel::dice::{Grid, LANES, Vertex, dice, finish_grid, prepare_grid, store};
+use crate::kernel::displace::dice_displaced;
 use crate::num::{add, mul, scale3, sub};
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
 use crate::patch::gregory::{Blend, INNER, blends, weber_blends};
@@ -38,6 +39,9 @@ pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, draw: Draw, grid: &
 /// Dices a surface of any patch, seen as `object` is placed.
 #[inline(always)]
 pub fn dice_any(frame: &Frame, patches: &[Patch], object: &Object, draw: Draw, grid: &mut Grid) {
+    if object.reach > 0.0 {
+        return dice_displaced(frame, patches, object, draw, grid);
+    }
     let patch = &patches[draw.patch_id as usize];
     let net = Net::in_eye_space(patch, object);
     match patch.faces {
@@ -47,17 +51,6 @@ pub fn dice_any(frame: &Frame, patches: &[Patch], object: &Object, draw: Draw, g
             dice_gregory(&net, &faces, frame, draw, grid);
         }
     }
-}
-
-/// A point of a patch and its derivatives along u and along v.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
-    /// Position in eye space.
-    pub point: [f32; 3],
-    /// Derivative along u.
-    pub du: [f32; 3],
-    /// Derivative along v.
-    pub dv: [f32; 3],
 }
 
 /// Evaluates a Gregory patch; the derivatives are the true ones, those of the blends included.

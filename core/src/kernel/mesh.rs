@@ -12,13 +12,9 @@ use crate::patch::bezier::param;
 /// Indices of a micropolygon.
 pub const QUAD_INDICES: usize = 6;
 
-/// An object that leaves its points where they are.
-const AS_IT_IS: Object = Object {
-    to_eye: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
-    colour: [0.0; 3],
-    specular: 0.0,
-    gloss: 0,
-};
+/// The transforms of points and of normals that leave them where they are.
+const AS_IT_IS: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+const NORMALS_AS_THEY_ARE: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 impl Draw {
     /// Vertices of its grid.
@@ -54,6 +50,7 @@ pub fn places(control: &Control, draws: &[Draw], places: &mut [MeshPlace], total
 #[inline(always)]
 pub fn mesh(
     frame: &Frame,
+    objects: &[Object],
     patches: &[Patch],
     draw: Draw,
     place: MeshPlace,
@@ -61,7 +58,9 @@ pub fn mesh(
     vertices: &mut [MeshVertex],
     indices: &mut [u32],
 ) {
-    dice_any(frame, patches, &AS_IT_IS, draw, grid);
+    let object = &objects[patches[draw.patch_id as usize].object as usize];
+    let stays = Object { to_eye: AS_IT_IS, normal_to_eye: NORMALS_AS_THEY_ARE, ..*object };
+    dice_any(frame, patches, &stays, draw, grid);
     for (at, vertex) in vertices.iter_mut().enumerate() {
         *vertex = vertex_at(draw, grid, at);
     }

@@ -8,6 +8,7 @@ pub mod clip;
 pub mod deal;
 pub mod dice;
 pub mod dice_gregory;
+pub mod displace;
 pub mod known_answers;
 pub mod local;
 pub mod mesh;

@@ -6,9 +6,9 @@
 
 use crate::abi::{DRAW_LIMITED, FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_ONE, Surface};
 use crate::border::{SIDES, Side};
-use crate::kernel::bound::{Reach, distance, measured_point, point_on_screen};
+use crate::kernel::bound::{Reach, distance, measured_point, point_on_screen, wobble};
 use crate::kernel::dice_gregory::evaluate_gregory;
-use crate::num::{add, clamp, float, floor, max, min, mul, neg};
+use crate::num::{abs, add, clamp, float, floor, max, min, mul, neg, sub};
 use crate::patch::{Faces, Net};
 
 /// Lengths in pixels: of the longest lines of the surface along `u` and along `v`, and of its sides.
@@ -131,11 +131,13 @@ pub(super) struct Strays {
 }
 
 impl Strays {
-    /// Of a surface whose vertices lie at `position`; `None` if all its corners are its own.
+    /// Of a surface whose vertices lie at `position`, and can be displaced by `reach`; `None` if all its corners are its
+    /// own.
     #[inline(always)]
     pub(super) fn of(
         frame: &Frame,
         surface: Surface,
+        reach: f32,
         position: impl Fn(u32, u32) -> [f32; 3],
     ) -> Option<Self> {
         if surface.keeps_its_corners() {
@@ -149,7 +151,9 @@ impl Strays {
             let [u, v] = surface.corner(corner);
             let point = position(u, v);
             let ([x, y], distance) = (point_on_screen(frame, point), neg(point[2]));
-            let own = Self { x: Reach::at(x), y: Reach::at(y), nearest: distance, farthest: distance };
+            let (nearest, farthest) = (sub(distance, reach), add(distance, reach));
+            let by = wobble(frame, max(abs(x), abs(y)), reach, max(nearest, frame.near));
+            let own = Self { x: Reach::around(x, by), y: Reach::around(y, by), nearest, farthest };
             found = Some(found.map_or(own, |others| others.joined(own)));
         }
         found

@@ -48,6 +48,19 @@ impl Faces {
         faces
     }
 
+    /// The face points in the space of the object.
+    #[inline(always)]
+    #[must_use]
+    pub const fn in_object_space(record: &Patch) -> Self {
+        let mut faces = Self { x: [0.0; 8], y: [0.0; 8], z: [0.0; 8] };
+        let mut l = 0;
+        while l < 8 {
+            (faces.x[l], faces.y[l], faces.z[l]) = (record.x[l], record.y[l], record.z[l]);
+            l += 1;
+        }
+        faces
+    }
+
     /// Largest magnitude among all coordinates.
     #[inline(always)]
     #[must_use]

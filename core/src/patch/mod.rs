@@ -3,6 +3,7 @@
 pub mod bezier;
 pub mod gregory;
 pub(crate) mod net;
+pub mod owner;
 
 pub use gregory::Faces;
 pub use net::Net;

@@ -18,6 +18,13 @@ pub struct Net {
 }
 
 impl Net {
+    /// Control net of the whole patch, in the space of its object.
+    #[inline(always)]
+    #[must_use]
+    pub const fn in_object_space(patch: &Patch) -> Self {
+        Self { x: patch.x, y: patch.y, z: patch.z }
+    }
+
     /// Control net of the whole patch, moved to eye space.
     #[inline(always)]
     #[must_use]
@@ -62,10 +69,30 @@ impl Net {
 fn transformed(patch: &Patch, row: [f32; 4]) -> [f32; 16] {
     let mut out = [0.0; 16];
     for (l, out) in out.iter_mut().enumerate() {
-        let xy = add(mul(row[0], patch.x[l]), mul(row[1], patch.y[l]));
-        *out = add(add(xy, mul(row[2], patch.z[l])), row[3]);
+        *out = row_of_matrix(row, [patch.x[l], patch.y[l], patch.z[l]]);
     }
     out
+}
+
+/// One coordinate of a point that is moved by a matrix, given the row of it.
+#[inline(always)]
+const fn row_of_matrix(row: [f32; 4], point: [f32; 3]) -> f32 {
+    let xy = add(mul(row[0], point[0]), mul(row[1], point[1]));
+    add(add(xy, mul(row[2], point[2])), row[3])
+}
+
+impl Object {
+    /// A point of the object's space, moved to eye space.
+    #[inline(always)]
+    #[must_use]
+    pub const fn point_to_eye(&self, point: [f32; 3]) -> [f32; 3] {
+        let m = &self.to_eye;
+        [
+            row_of_matrix([m[0], m[1], m[2], m[3]], point),
+            row_of_matrix([m[4], m[5], m[6], m[7]], point),
+            row_of_matrix([m[8], m[9], m[10], m[11]], point),
+        ]
+    }
 }
 
 /// `weights` applied along `u`: four weighted sums of the rows of the net.

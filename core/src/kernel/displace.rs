@@ -1,0 +1,172 @@
+//! displace: vertices move along their normals, by bumps that are a function of where they are in object space.
+//!
+//! The bumps are value noise (Ebert et al., Texturing & Modeling, ch. 2): heights at the points of a lattice, smoothly
+//! interpolated, in octaves. A displaced vertex is a pure function of patch and parameter, evaluated on the patch that
+//! owns it ([`crate::patch::owner`]), in the space of its object: so neighbours agree, and the camera does not matter.
+//! Its normal is tilted by the slope of the bumps (Blinn 1978): right to first order in height times curvature.
+
+use crate::abi::{
+    Draw, FLAT, Frame, HASH_FIRST, HASH_OCTAVE, HASH_SECOND, HASH_X, HASH_Y, HASH_Z, LATTICE_END,
+    LATTICE_STEP, Object, Patch, SHADE_TINY,
+};
+use crate::kernel::dice::{Grid, Vertex, evaluate_bezier, normal_of, prepare_grid, project_all, size};
+use crate::kernel::dice_gregory::evaluate_gregory;
+use crate::num::{
+    add, add3, clamp, dot3, float, floor, largest3, max, mul, neg, rsqrt, scale3, sub, unit_scale,
+};
+use crate::patch::gregory::mix;
+use crate::patch::{Faces, Net};
+
+/// A number that varies in space, and its derivatives along x, y and z.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bump {
+    /// The number.
+    pub value: f32,
+    /// How it changes.
+    pub slope: [f32; 3],
+}
+
+/// How far a point of an object is displaced, in object units.
+#[inline(always)]
+#[must_use]
+pub fn bump(object: &Object, point: [f32; 3]) -> Bump {
+    let (mut height, mut frequency) = (object.height, object.frequency);
+    let mut out = Bump::default();
+    for octave in 0..object.octaves {
+        let noise = noise(scale3(point, frequency), octave);
+        out.value = add(out.value, mul(height, noise.value));
+        out.slope = add3(out.slope, scale3(noise.slope, mul(height, frequency)));
+        (height, frequency) = (mul(0.5, height), mul(2.0, frequency));
+    }
+    out
+}
+
+/// Value noise: from -1 to 1, with one value a unit cube's corner.
+#[inline(always)]
+#[must_use]
+pub fn noise(point: [f32; 3], octave: u32) -> Bump {
+    let (mut cell, mut weight, mut slope) = ([0; 3], [0.0; 3], [0.0; 3]);
+    for k in 0..3 {
+        let c = clamp(point[k], neg(LATTICE_END), LATTICE_END);
+        cell[k] = floor(c);
+        (weight[k], slope[k]) = fade(sub(c, float(cell[k])));
+    }
+    let at = |x: i32, y: i32, z: i32| lattice([cell[0] + x, cell[1] + y, cell[2] + z], octave);
+    let low = square([[at(0, 0, 0), at(1, 0, 0)], [at(0, 1, 0), at(1, 1, 0)]], weight, slope);
+    let high = square([[at(0, 0, 1), at(1, 0, 1)], [at(0, 1, 1), at(1, 1, 1)]], weight, slope);
+    Bump {
+        value: mix(low.value, high.value, weight[2]),
+        slope: [
+            mix(low.slope[0], high.slope[0], weight[2]),
+            mix(low.slope[1], high.slope[1], weight[2]),
+            mul(sub(high.value, low.value), slope[2]),
+        ],
+    }
+}
+
+/// The same between the corners of a unit square, in rows along x.
+#[inline(always)]
+fn square(rows: [[f32; 2]; 2], weight: [f32; 3], slope: [f32; 3]) -> Bump {
+    let [low, high] = rows.map(|[a, b]| (mix(a, b, weight[0]), mul(sub(b, a), slope[0])));
+    Bump {
+        value: mix(low.0, high.0, weight[1]),
+        slope: [mix(low.1, high.1, weight[1]), mul(sub(high.0, low.0), slope[1]), 0.0],
+    }
+}
+
+/// From 0 to 1, smooth to the second derivative at both ends (Perlin 2002), and its derivative.
+#[inline(always)]
+const fn fade(t: f32) -> (f32, f32) {
+    let (s, tt) = (sub(1.0, t), mul(t, t));
+    let inner = add(mul(t, sub(mul(6.0, t), 15.0)), 10.0);
+    (mul(mul(tt, t), inner), mul(30.0, mul(tt, mul(s, s))))
+}
+
+/// The height at a point of the lattice: -1 ..< 1, exactly.
+#[inline(always)]
+const fn lattice(at: [i32; 3], octave: u32) -> f32 {
+    let [x, y, z] = [at[0] as u32, at[1] as u32, at[2] as u32];
+    let place = x.wrapping_mul(HASH_X) ^ y.wrapping_mul(HASH_Y) ^ z.wrapping_mul(HASH_Z);
+    let hash = mixed(place.wrapping_add(octave.wrapping_mul(HASH_OCTAVE)));
+    sub(mul(float((hash >> 8) as i32), LATTICE_STEP), 1.0)
+}
+
+/// Every bit of the result depends on every bit given.
+#[inline(always)]
+const fn mixed(hash: u32) -> u32 {
+    let first = (hash ^ hash >> 16).wrapping_mul(HASH_FIRST);
+    let second = (first ^ first >> 15).wrapping_mul(HASH_SECOND);
+    second ^ second >> 16
+}
+
+/// What a patch is evaluated from, in the space of its object.
+#[derive(Clone, Copy, Debug)]
+struct Source {
+    net: Net,
+    faces: Option<Faces>,
+    /// Tangents no longer than this have vanished.
+    flat: f32,
+}
+
+impl Source {
+    #[inline(always)]
+    fn new(patches: &[Patch], patch_id: u32) -> Self {
+        let patch = &patches[patch_id as usize];
+        let net = Net::in_object_space(patch);
+        let record = if patch.faces > 0 { Some(&patches[patch.faces as usize]) } else { None };
+        Self { faces: record.map(Faces::in_object_space), flat: mul(size(&net), FLAT), net }
+    }
+
+    /// The point at a parameter, displaced; and a normal, not unit.
+    #[inline(always)]
+    fn displaced(&self, frame: &Frame, object: &Object, u: u32, v: u32) -> ([f32; 3], [f32; 3]) {
+        let vertex = self.evaluate(frame, u, v);
+        let normal = normal_of(&self.net, &vertex, u, v, self.flat);
+        let Bump { value, slope } = bump(object, vertex.point);
+        let along = add3(slope, scale3(normal, neg(dot3(slope, normal))));
+        (add3(vertex.point, scale3(normal, value)), add3(normal, scale3(along, -1.0)))
+    }
+
+    #[inline(always)]
+    fn evaluate(&self, frame: &Frame, u: u32, v: u32) -> Vertex {
+        match &self.faces {
+            None => evaluate_bezier(&self.net, u, v),
+            Some(faces) => evaluate_gregory(&self.net, faces, frame, u, v),
+        }
+    }
+}
+
+/// Fills positions, normals and snapped vertices of a surface of an object that is displaced, as
+/// [`crate::kernel::dice::dice`] does of one that is not.
+#[inline(never)]
+pub fn dice_displaced(frame: &Frame, patches: &[Patch], object: &Object, draw: Draw, grid: &mut Grid) {
+    prepare_grid(draw, grid);
+    let patch = &patches[draw.patch_id as usize];
+    let own = Source::new(patches, draw.patch_id);
+    for at in 0..grid.stride * grid.rows {
+        let [u, v] = draw.vertex((at / grid.stride) as u32, (at % grid.stride) as u32);
+        let owner = patch.owner(draw.patch_id, u, v);
+        let (point, normal) = if owner.patch_id == draw.patch_id {
+            own.displaced(frame, object, owner.u, owner.v)
+        } else {
+            Source::new(patches, owner.patch_id).displaced(frame, object, owner.u, owner.v)
+        };
+        grid.put(at, object.point_to_eye(point), object.normal_to_eye(normal));
+    }
+    project_all(frame, grid);
+}
+
+impl Object {
+    /// The unit vector, in eye space, of a normal in the object's space.
+    #[inline(always)]
+    #[must_use]
+    pub fn normal_to_eye(&self, normal: [f32; 3]) -> [f32; 3] {
+        let m = &self.normal_to_eye;
+        let normal = scale3(normal, unit_scale(largest3(normal)));
+        let [x, y, z] =
+            [[m[0], m[1], m[2]], [m[3], m[4], m[5]], [m[6], m[7], m[8]]].map(|row| dot3(row, normal));
+        let turned = scale3([x, y, z], unit_scale(largest3([x, y, z])));
+        let unit = scale3(turned, rsqrt(max(dot3(turned, turned), SHADE_TINY)));
+        if largest3(unit) > 0.5 { unit } else { [0.0, 0.0, 1.0] }
+    }
+}
