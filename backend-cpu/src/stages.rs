@@ -211,7 +211,8 @@ fn mesh_one(
 ) -> (Vec<MeshVertex>, Vec<u32>) {
     let mut vertices = vec![MeshVertex::default(); draw.vertices() as usize];
     let mut indices = vec![0; draw.triangles() as usize * QUAD_INDICES / 2];
-    mesh::mesh(frame, objects, patches, draw, place, grid, &mut vertices, &mut indices);
+    mesh::dice_in_place(frame, objects, patches, draw, grid);
+    mesh::mesh(draw, place, grid, &mut vertices, &mut indices);
     (vertices, indices)
 }
 

@@ -36,18 +36,13 @@ pub fn find_owners(patches: &mut [Patch], room: &mut [u32]) {
     // Corners first: a side that is one point belongs to the owner of its corner.
     number(room);
     room.sort_unstable_by(|&a, &b| corner_of(patches, a).cmp(&corner_of(patches, b)).then(a.cmp(&b)));
-    own_groups(
-        patches,
-        room,
-        |patches, a| corner_of(patches, a),
-        |patches, owner, at| {
-            patches[(at / 4) as usize].owners[4 + (at % 4) as usize] =
-                if owner == at { 0 } else { owned_by_corner(owner / 4, owner % 4) };
-        },
-    );
+    own_groups(patches, room, corner_of, |patches, owner, at| {
+        patches[(at / 4) as usize].owners[4 + (at % 4) as usize] =
+            if owner == at { 0 } else { owned_by_corner(owner / 4, owner % 4) };
+    });
     number(room);
     room.sort_unstable_by(|&a, &b| side_of(patches, a).cmp(&side_of(patches, b)).then(a.cmp(&b)));
-    own_groups(patches, room, |patches, a| side_of(patches, a), own_side);
+    own_groups(patches, room, side_of, own_side);
 }
 
 /// 4 · patch + side or corner.
@@ -150,8 +145,8 @@ mod tests {
 
     #[test]
     fn a_neighbour_however_turned_has_the_owners_vertices() {
-        let turns: [fn(usize, usize) -> (usize, usize); 4] =
-            [|i, j| (i, j), |i, j| (j, 3 - i), |i, j| (3 - i, 3 - j), |i, j| (3 - j, i)];
+        type Turn = fn(usize, usize) -> (usize, usize);
+        let turns: [Turn; 4] = [|i, j| (i, j), |i, j| (j, 3 - i), |i, j| (3 - i, 3 - j), |i, j| (3 - j, i)];
         for turn in turns {
             let patches = found(pair(turn));
             assert_eq!(patches[0].owners, [0; 8], "the first patch owns its own");

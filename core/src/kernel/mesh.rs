@@ -46,21 +46,18 @@ pub fn places(control: &Control, draws: &[Draw], places: &mut [MeshPlace], total
     totals
 }
 
-/// The mesh of one draw: `vertices` has room for [`Draw::vertices`], `indices` for three times [`Draw::triangles`].
+/// Dices a draw for a mesh: in the space of its object.
 #[inline(always)]
-pub fn mesh(
-    frame: &Frame,
-    objects: &[Object],
-    patches: &[Patch],
-    draw: Draw,
-    place: MeshPlace,
-    grid: &mut Grid,
-    vertices: &mut [MeshVertex],
-    indices: &mut [u32],
-) {
+pub fn dice_in_place(frame: &Frame, objects: &[Object], patches: &[Patch], draw: Draw, grid: &mut Grid) {
     let object = &objects[patches[draw.patch_id as usize].object as usize];
     let stays = Object { to_eye: AS_IT_IS, normal_to_eye: NORMALS_AS_THEY_ARE, ..*object };
     dice_any(frame, patches, &stays, draw, grid);
+}
+
+/// The mesh of a draw that is diced: `vertices` has room for [`Draw::vertices`], `indices` for three times
+/// [`Draw::triangles`].
+#[inline(always)]
+pub fn mesh(draw: Draw, place: MeshPlace, grid: &Grid, vertices: &mut [MeshVertex], indices: &mut [u32]) {
     for (at, vertex) in vertices.iter_mut().enumerate() {
         *vertex = vertex_at(draw, grid, at);
     }
