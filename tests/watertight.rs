@@ -6,6 +6,7 @@ use std::process::Command;
 
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly::core::camera::{Borders, Material};
+use micropoly::core::displacement::Displacement;
 use micropoly::core::num::dot3;
 use micropoly::generate::{Generator, generate};
 use micropoly::mesh::{Format, Mesh};
@@ -84,7 +85,7 @@ fn mesh_of(scene: &Scene, frame: &FrameOptions) -> Mesh {
 
 #[test]
 fn every_backend_batch_and_scheduler_gives_the_same_mesh() {
-    for name in ["gregory", "teapot"] {
+    for name in ["gregory", "teapot", "displaced"] {
         let scene = Scene::load(format!("scenes/{name}.toml")).expect("a scene");
         let frame = FrameOptions { size: 3.0, bound: 48.0, ..small() };
         let expected = mesh_of(&scene, &frame);
@@ -117,6 +118,21 @@ fn assert_closed(mut scene: Scene, options: &FrameOptions) {
         assert_eq!((mesh.open_edges(), mesh.limited), (0, 0), "camera {round}");
         assert!(mesh.triangles.len() > 100, "camera {round}");
     }
+}
+
+/// The scene with bumps on all objects.
+fn bumpy(mut scene: Scene, height: f32, frequency: f32) -> Scene {
+    for object in &mut scene.objects {
+        object.displacement = Some(Displacement { height, frequency, octaves: 3 });
+    }
+    scene
+}
+
+#[test]
+fn displaced_scenes_are_closed_from_anywhere() {
+    assert_closed(bumpy(scene_of(torus()), 0.1, 6.0), &small());
+    assert_closed(bumpy(scene_of(balls()), 0.05, 20.0), &FrameOptions { rate: 5, bound: 5.0, ..small() });
+    assert_closed(bumpy(Scene::load("scenes/gregory.toml").expect("a scene"), 0.3, 3.0), &small());
 }
 
 #[test]
@@ -185,10 +201,19 @@ fn black(scene: &Scene, frame: FrameOptions) -> Vec<bool> {
 
 #[test]
 fn images_have_no_hole_inside_the_silhouette_at_any_rate_and_bound() {
-    let mut scene = scene_of(torus());
+    assert_no_lonely_holes(scene_of(torus()), 120);
+}
+
+#[test]
+fn images_of_what_is_displaced_have_none_either() {
+    // Steep, but not so that the silhouette frays.
+    assert_no_lonely_holes(bumpy(scene_of(torus()), 0.04, 5.0), 60);
+}
+
+fn assert_no_lonely_holes(mut scene: Scene, views: usize) {
     let mut random = fastrand::Rng::with_seed(72);
     let (mut holes, mut naive) = (0, 0);
-    for round in 0..120 {
+    for round in 0..views {
         // From far enough outside, so that the silhouette is that of the whole.
         let direction = DVec3::from_array([0; 3].map(|_| random.f64() * 2.0 - 1.0)).normalize_or(DVec3::X);
         let eye = direction * (1.6 + 3.0 * random.f64());
@@ -216,15 +241,24 @@ fn images_have_no_hole_inside_the_silhouette_at_any_rate_and_bound() {
 
 #[test]
 fn the_inside_of_a_ball_has_no_hole_at_any_rate_and_bound() {
+    assert_no_holes_inside(|scene| scene, 120);
+}
+
+#[test]
+fn the_inside_of_a_ball_with_bumps_has_none_either() {
+    assert_no_holes_inside(|scene| bumpy(scene, 0.2, 5.0), 120);
+}
+
+fn assert_no_holes_inside(change: impl Fn(Scene) -> Scene, views: usize) {
     let mut patches = generate(Generator::Spheres, 1, 1);
     let (low, high) = scene_of(patches.clone()).bounds();
     for point in patches.iter_mut().flat_map(|patch| &mut patch.points) {
         let unit = (Vec3::from(*point).as_dvec3() - (low + high) * 0.5) / ((high - low) * 0.5);
         *point = unit.as_vec3().to_array();
     }
-    let mut scene = scene_of(patches);
+    let mut scene = change(scene_of(patches));
     let mut random = fastrand::Rng::with_seed(73);
-    for round in 0..120 {
+    for round in 0..views {
         let mut anywhere = || DVec3::from_array([0; 3].map(|_| random.f64() * 2.0 - 1.0));
         let eye = anywhere() * 0.5;
         let camera = Camera::look_at(eye, eye + anywhere(), DVec3::new(0.3, 0.2, 0.9), 70.0, 0.01);

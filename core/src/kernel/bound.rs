@@ -102,13 +102,27 @@ impl Hull {
         }
     }
 
-    /// Smallest distance of the surface from the eye plane.
+    /// Smallest distance of what is drawn from the eye plane.
     #[inline(always)]
     fn nearest(&self) -> f32 {
         sub(neg(fold(&self.part.z, max)), self.spread())
     }
 
-    /// Largest distance of the surface from the eye plane.
+    /// Smallest distance of the surface from the eye plane before it is displaced.
+    #[inline(always)]
+    fn nearest_smooth(&self) -> f32 {
+        let apart = self.apart.as_ref().map_or(0.0, |apart| apart.spread);
+        sub(neg(fold(&self.part.z, max)), apart)
+    }
+
+    /// What is nearer than this is measured as if it were this far away: where displacement can move things by so much,
+    /// a smaller distance means nothing.
+    #[inline(always)]
+    const fn measured_from(&self, frame: &Frame) -> f32 {
+        max(frame.near, self.reach)
+    }
+
+    /// Largest distance of what is drawn from the eye plane.
     #[inline(always)]
     fn farthest(&self) -> f32 {
         add(neg(fold(&self.part.z, min)), self.spread())
@@ -142,8 +156,9 @@ impl Hull {
         let Some(apart) = &self.apart else {
             return own;
         };
-        let sides = sides_of_gregory(frame, &self.whole, &apart.faces, surface, own.sides);
-        let points = measured(frame, &apart.follower);
+        let near = self.measured_from(frame);
+        let sides = sides_of_gregory(frame, near, &self.whole, &apart.faces, surface, own.sides);
+        let points = measured(frame, near, &apart.follower);
         Lengths::new(polygons_u(&points), polygons_v(&points)).with_sides(sides)
     }
 }
@@ -245,8 +260,9 @@ fn with_sides(frame: &Frame, surface: Surface, lengths: &Lengths, verdict: Verdi
 /// The verdict on the surface inside a hull.
 #[inline(always)]
 fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
+    let near = hull.measured_from(frame);
     if frame.flags & FLAG_WHOLE != 0 {
-        let lengths = hull.lengths(frame, surface, &measured(frame, &hull.part));
+        let lengths = hull.lengths(frame, surface, &measured(frame, near, &hull.part));
         return by_length(frame, surface, &lengths, PixelBox::whole(frame));
     }
     let (nearest, farthest) = (hull.nearest(), hull.farthest());
@@ -259,13 +275,14 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
     if crosses && strays.is_none() && beside_the_view(frame, &hull.part, add(hull.slack, hull.spread())) {
         return Verdict::CULLED;
     }
-    let points = measured(frame, &hull.part);
+    let points = measured(frame, near, &hull.part);
     let lengths = hull.lengths(frame, surface, &points);
     if crosses {
         let pixels =
             if strays.is_some() { PixelBox::whole(frame) } else { pixels_if_cut(frame, hull, farthest) };
-        let code = by_extents(frame, surface, extents_if_cut(frame, &hull.part));
-        return with_sides(frame, surface, &lengths, verdict(code, pixels));
+        let is_cut = hull.nearest_smooth() < near;
+        let extents = if is_cut { extents_if_cut(frame, near, &hull.part) } else { (lengths.u, lengths.v) };
+        return with_sides(frame, surface, &lengths, verdict(by_extents(frame, surface, extents), pixels));
     }
     let pixels = match strays {
         Some(strays) if min(nearest, strays.nearest) < frame.near => PixelBox::whole(frame),
@@ -284,7 +301,7 @@ fn pixels_of(frame: &Frame, hull: &Hull) -> PixelBox {
     if nearest < frame.near || frame.flags & FLAG_WHOLE != 0 {
         return PixelBox::whole(frame);
     }
-    let points = measured(frame, &hull.part);
+    let points = measured(frame, frame.near, &hull.part);
     hull.seen(frame, nearest, &points.x, &points.y).pixels(frame)
 }
 
@@ -375,8 +392,8 @@ fn beyond(frame: &Frame, part: &Net, c: &[f32; 16], half: f32, slack: f32) -> bo
 /// Lengths along u and along v, in pixels, of a surface that crosses the near plane: as if all of it were there, and
 /// turned to the eye. No part of it that can be seen is longer.
 #[inline(always)]
-fn extents_if_cut(frame: &Frame, part: &Net) -> (f32, f32) {
-    let scale = mul(frame.focal, recip(frame.near));
+fn extents_if_cut(frame: &Frame, near: f32, part: &Net) -> (f32, f32) {
+    let scale = mul(frame.focal, recip(near));
     let mut points = *part;
     for l in 0..16 {
         for c in [&mut points.x[l], &mut points.y[l], &mut points.z[l]] {
@@ -406,10 +423,10 @@ fn pixels_if_cut(frame: &Frame, hull: &Hull, farthest: f32) -> PixelBox {
 
 /// Where the control points are for measuring lengths.
 #[inline(always)]
-fn measured(frame: &Frame, part: &Net) -> Net {
+fn measured(frame: &Frame, near: f32, part: &Net) -> Net {
     let mut out = Net { x: [0.0; 16], y: [0.0; 16], z: [0.0; 16] };
     for l in 0..16 {
-        [out.x[l], out.y[l], out.z[l]] = measured_point(frame, [part.x[l], part.y[l], part.z[l]]);
+        [out.x[l], out.y[l], out.z[l]] = measured_point(frame, near, [part.x[l], part.y[l], part.z[l]]);
     }
     out
 }
@@ -417,20 +434,20 @@ fn measured(frame: &Frame, part: &Net) -> Net {
 /// Where a point is for measuring lengths: its pixel offsets, at depth 0; or, if the mesh is to be whole, on a
 /// sheet of pixels that surrounds the eye, flat where it can see.
 #[inline(always)]
-pub(super) fn measured_point(frame: &Frame, point: [f32; 3]) -> [f32; 3] {
+pub(super) fn measured_point(frame: &Frame, near: f32, point: [f32; 3]) -> [f32; 3] {
     if frame.flags & FLAG_WHOLE == 0 {
-        let [x, y] = point_on_screen(frame, point);
+        let [x, y] = point_on_screen(frame, near, point);
         return [x, y, 0.0];
     }
     let before = max(neg(point[2]), mul(largest3(point), frame.around));
-    let scale = mul(frame.focal, recip(max(before, frame.near)));
+    let scale = mul(frame.focal, recip(max(before, near)));
     scale3(point, scale)
 }
 
-/// Pixel offsets of one point from the optical axis.
+/// Pixel offsets from the optical axis of a point that is `near` away or farther, or taken to be.
 #[inline(always)]
-pub(super) fn point_on_screen(frame: &Frame, point: [f32; 3]) -> [f32; 2] {
-    let (x, y, _) = perspective(frame, point);
+pub(super) fn point_on_screen(frame: &Frame, near: f32, point: [f32; 3]) -> [f32; 2] {
+    let (x, y, _) = perspective(frame, near, point);
     [clamp(x, neg(FAR_OFF), FAR_OFF), clamp(y, neg(FAR_OFF), FAR_OFF)]
 }
 

@@ -150,7 +150,7 @@ impl Lanes {
         for k in 0..16 {
             for l in 0..LANES {
                 let point = [net[0][k][l], net[1][k][l], net[2][k][l]];
-                [seen[0][k][l], seen[1][k][l]] = point_on_screen(frame, point);
+                [seen[0][k][l], seen[1][k][l]] = point_on_screen(frame, frame.near, point);
             }
         }
         for axis in 0..2 {

@@ -16,11 +16,11 @@ pub struct Vertex {
 
 /// Pixel offsets right of and below the optical axis, and 1 / distance, of an eye-space point.
 ///
-/// Points nearer than the near plane are taken at the near plane.
+/// Points nearer than `near` are taken to be that far away.
 #[inline(always)]
 #[must_use]
-pub fn perspective(frame: &Frame, point: [f32; 3]) -> (f32, f32, f32) {
-    let w = recip(max(neg(point[2]), frame.near));
+pub fn perspective(frame: &Frame, near: f32, point: [f32; 3]) -> (f32, f32, f32) {
+    let w = recip(max(neg(point[2]), near));
     let scale = mul(frame.focal, w);
     (mul(point[0], scale), mul(neg(point[1]), scale), w)
 }
@@ -29,7 +29,7 @@ pub fn perspective(frame: &Frame, point: [f32; 3]) -> (f32, f32, f32) {
 #[inline(always)]
 #[must_use]
 pub fn project(frame: &Frame, point: [f32; 3]) -> Vertex {
-    let (x, y, w) = perspective(frame, point);
+    let (x, y, w) = perspective(frame, frame.near, point);
     let visible = (neg(point[2]) >= frame.near) & (abs(x) <= GUARD_BAND) & (abs(y) <= GUARD_BAND);
     Vertex { w: if visible { w } else { 0.0 }, ..snapped(frame, x, y, w) }
 }
@@ -38,7 +38,7 @@ pub fn project(frame: &Frame, point: [f32; 3]) -> Vertex {
 #[inline(always)]
 #[must_use]
 pub fn project_clipped(frame: &Frame, point: [f32; 3]) -> Vertex {
-    let (x, y, w) = perspective(frame, point);
+    let (x, y, w) = perspective(frame, frame.near, point);
     snapped(frame, x, y, w)
 }
 

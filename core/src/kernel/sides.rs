@@ -2,7 +2,7 @@
 //!
 //! A side's length on screen is that of the control polygon of its own curve, from control points that both
 //! neighbours have bit by bit, in an order that is the same from either end. What is nearer than the near plane is
-//! taken at the near plane.
+//! taken at the near plane; or farther away, where displacement reaches farther.
 
 use crate::abi::{DRAW_LIMITED, FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_ONE, Surface};
 use crate::border::{SIDES, Side};
@@ -95,6 +95,7 @@ pub fn rates(frame: &Frame, surface: Surface, sides: &[Side; 4], lengths: &Lengt
 /// the patch were a Bézier patch; a line inside the patch as four chords between its points.
 pub(super) fn sides_of_gregory(
     frame: &Frame,
+    near: f32,
     net: &Net,
     faces: &Faces,
     surface: Surface,
@@ -112,7 +113,7 @@ pub(super) fn sides_of_gregory(
         for (quarter, seen) in (0..).zip(&mut seen) {
             let mut at = [ends[side]; 2];
             at[along] = low[along] + quarter * (high[along] / 4);
-            *seen = measured_point(frame, evaluate_gregory(net, faces, frame, at[0], at[1]).point);
+            *seen = measured_point(frame, near, evaluate_gregory(net, faces, frame, at[0], at[1]).point);
         }
         let chord = |k: usize| distance(seen[k], seen[k + 1]);
         out[side] = add(add(chord(0), chord(3)), add(chord(1), chord(2)));
@@ -150,7 +151,7 @@ impl Strays {
             }
             let [u, v] = surface.corner(corner);
             let point = position(u, v);
-            let ([x, y], distance) = (point_on_screen(frame, point), neg(point[2]));
+            let ([x, y], distance) = (point_on_screen(frame, frame.near, point), neg(point[2]));
             let (nearest, farthest) = (sub(distance, reach), add(distance, reach));
             let by = wobble(frame, max(abs(x), abs(y)), reach, max(nearest, frame.near));
             let own = Self { x: Reach::around(x, by), y: Reach::around(y, by), nearest, farthest };
