@@ -135,6 +135,8 @@ fn files_that_are_not_there_or_not_right_are_refused() {
 #[test]
 fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
     let camera = |change: (&str, &str)| scene(&CAMERA.replace(change.0, change.1), OBJECT);
+    let bumps =
+        |fields: &str| scene(CAMERA, &format!("geometry = \"patches.bpt\"\ndisplacement = {{ {fields} }}"));
     for (text, what) in [
         (camera(("near = 0.1", "near = 0")), "scene.toml:5: near is 0"),
         (camera(("near = 0.1", "near = -1")), "near is -1"),
@@ -151,6 +153,11 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"red\""), "this is not a colour"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nshininess = 3"), "power of two"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nscale = nan"), "scale"),
+        (bumps("height = -1, frequency = 2"), "scene.toml:8: a displacement with numbers"),
+        (bumps("height = 1, frequency = 2, octaves = 9"), "octaves 1 to 8"),
+        (bumps("height = 1000, frequency = 1e5"), "steeper"),
+        (bumps("height = 1, frequency = 1e5, octaves = 8"), "a smaller frequency or fewer octaves"),
+        (bumps("height = 1"), "missing field `frequency`"),
         (scene(CAMERA, "generate = { kind = \"hair\", count = 0 }"), "makes no patches"),
         (scene(CAMERA, "generate = { kind = \"hair\", count = 4000000000 }"), "more than"),
         (

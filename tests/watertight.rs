@@ -241,15 +241,16 @@ fn assert_no_lonely_holes(mut scene: Scene, views: usize) {
 
 #[test]
 fn the_inside_of_a_ball_has_no_hole_at_any_rate_and_bound() {
-    assert_no_holes_inside(|scene| scene, 120);
+    assert_no_holes_inside(|scene| scene, 0.5, 120);
 }
 
 #[test]
 fn the_inside_of_a_ball_with_bumps_has_none_either() {
-    assert_no_holes_inside(|scene| bumpy(scene, 0.2, 5.0), 120);
+    // From where no bump can reach the eye.
+    assert_no_holes_inside(|scene| bumpy(scene, 0.1, 5.0), 0.4, 60);
 }
 
-fn assert_no_holes_inside(change: impl Fn(Scene) -> Scene, views: usize) {
+fn assert_no_holes_inside(change: impl Fn(Scene) -> Scene, around: f64, views: usize) {
     let mut patches = generate(Generator::Spheres, 1, 1);
     let (low, high) = scene_of(patches.clone()).bounds();
     for point in patches.iter_mut().flat_map(|patch| &mut patch.points) {
@@ -260,7 +261,7 @@ fn assert_no_holes_inside(change: impl Fn(Scene) -> Scene, views: usize) {
     let mut random = fastrand::Rng::with_seed(73);
     for round in 0..views {
         let mut anywhere = || DVec3::from_array([0; 3].map(|_| random.f64() * 2.0 - 1.0));
-        let eye = anywhere() * 0.5;
+        let eye = anywhere() * around;
         let camera = Camera::look_at(eye, eye + anywhere(), DVec3::new(0.3, 0.2, 0.9), 70.0, 0.01);
         scene.camera = camera.expect("a view");
         let (rate, bound) = [(16, 16.0), (1, 20.0), (1, 60.0), (3, 8.0), (7, 3.0), (16, 5.0)][round % 6];

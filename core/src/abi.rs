@@ -110,6 +110,9 @@ shared_constants! {
     const MAX_OCTAVES: u32 = 8;
     /// Bumps repeat farther than so many of them from the origin.
     const LATTICE_END: f32 = (1 << 22) as f32;
+    /// Of a bump's width: a point so near the side of its cell is taken to be there, so that no weight is so small that
+    /// products of it reach the denormals.
+    const LATTICE_NEAR: f32 = 1.0 / (1 << 20) as f32;
     /// Heights of bumps are multiples of this.
     const LATTICE_STEP: f32 = 1.0 / (1 << 23) as f32;
     /// Factors of the hash of a point of the lattice (after Teschner et al. 2003), and of the octave.

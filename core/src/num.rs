@@ -124,6 +124,13 @@ pub const fn flush(x: f32) -> f32 {
     if x.to_bits() & 0x7fff_ffff < 0x2000_0000 { 0.0 } else { x }
 }
 
+/// [`flush`], component by component.
+#[inline(always)]
+#[must_use]
+pub const fn flush3(a: [f32; 3]) -> [f32; 3] {
+    [flush(a[0]), flush(a[1]), flush(a[2])]
+}
+
 /// The power of two that scales `x` > 0 into 1 ..< 2; 0 for zero, denormals and anything from 2¹²⁶ up.
 #[inline(always)]
 #[must_use]

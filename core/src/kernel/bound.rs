@@ -272,7 +272,9 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
         return Verdict::CULLED;
     }
     let crosses = nearest < frame.near && add(farthest, hull.slack) >= frame.near;
-    if crosses && strays.is_none() && beside_the_view(frame, &hull.part, add(hull.slack, hull.spread())) {
+    // Boxes of what is displaced are wide where it is near.
+    let is_vague = crosses || hull.reach > 0.0;
+    if is_vague && strays.is_none() && beside_the_view(frame, &hull.part, add(hull.slack, hull.spread())) {
         return Verdict::CULLED;
     }
     let points = measured(frame, near, &hull.part);

@@ -6,7 +6,7 @@
 
 use crate::abi::{Draw, FLAT, Frame, MAX_RATE, PARALLEL, PARAM_ONE};
 use crate::kernel::project::project;
-use crate::num::{cross3, dot3, largest3, max, min, mul, rsqrt, scale3, sub, unit_scale};
+use crate::num::{cross3, dot3, flush3, largest3, max, min, mul, rsqrt, scale3, sub, unit_scale};
 use crate::patch::Net;
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
 use crate::patch::net::fold;
@@ -423,7 +423,8 @@ fn side(c: &[f32; 16]) -> f32 {
 
 /// Unit vector along `du` × `dv`, or zero where a tangent is not longer than `flat` or both are parallel.
 ///
-/// The tangents are scaled by powers of two first, so that no product can reach the denormals.
+/// The tangents are scaled by powers of two first, so that denormals, which some devices do not have, matter to no
+/// component that is not flushed.
 #[inline(always)]
 #[must_use]
 pub fn unit_normal(du: [f32; 3], dv: [f32; 3], flat: f32) -> [f32; 3] {
@@ -432,7 +433,7 @@ pub fn unit_normal(du: [f32; 3], dv: [f32; 3], flat: f32) -> [f32; 3] {
     let square = dot3(normal, normal);
     let sound = (long_u > flat) & (long_v > flat) & (square > PARALLEL);
     let scale = if sound { rsqrt(max(square, PARALLEL)) } else { 0.0 };
-    scale3(normal, scale)
+    flush3(scale3(normal, scale))
 }
 
 /// Replaces normals that vanished: at collapsed edges, cusps, zero-area patches.
