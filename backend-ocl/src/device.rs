@@ -208,7 +208,7 @@ impl Grid {
             (Stage::Split, Items::Taken) => Some(Self::of_items(buffers[1].entries())),
             (Stage::Local, Items::Groups(count)) => Self::a_column_each(count, 1, buffers[4]),
             (Stage::Deal, Items::Groups(count)) => Self::a_column_each(count, DEAL_ROWS, buffers[1]),
-            (Stage::Mesh, Items::Count(count)) => Self::a_column_each(count, 1, buffers[3]),
+            (Stage::Mesh, Items::Count(count)) => Self::a_column_each(count, 1, buffers[4]),
             _ => None,
         }
     }

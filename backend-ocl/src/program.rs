@@ -20,10 +20,10 @@ macro_rules! files {
 }
 
 files! {
-    "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "border.cl" "net.cl" "gregory.cl" "project.cl" "weber.cl"
-    "take.cl" "sides.cl" "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "shade.cl" "triangle.cl" "clip.cl"
-    "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "mesh.cl" "flush.cl" "scan.cl"
-    "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
+    "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "border.cl" "net.cl" "gregory.cl" "owner.cl" "project.cl"
+    "weber.cl" "take.cl" "sides.cl" "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "displace.cl" "shade.cl"
+    "triangle.cl" "clip.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "mesh.cl"
+    "flush.cl" "scan.cl" "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
 }
 
 /// The kernels: one a stage, and those into which the fused stage is cut.

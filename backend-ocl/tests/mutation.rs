@@ -149,7 +149,9 @@ fn stages(file: &str) -> Vec<Stage> {
         "scan.cl" => vec![Stage::Scan, Stage::Local, Stage::MeshPlaces],
         "bezier.cl" | "net.cl" | "gregory.cl" => vec![Stage::Bound, Stage::Draw, Stage::Mesh],
         "project.cl" => vec![Stage::Bound, Stage::Draw],
-        "dice.cl" | "dice_gregory.cl" | "sample.cl" => vec![Stage::Draw, Stage::Mesh],
+        "owner.cl" | "dice.cl" | "dice_gregory.cl" | "displace.cl" | "sample.cl" => {
+            vec![Stage::Draw, Stage::Mesh]
+        }
         "weber.cl" | "sides.cl" => vec![Stage::Bound],
         _ => {
             let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));

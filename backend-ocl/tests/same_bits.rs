@@ -16,7 +16,7 @@ use micropoly_core::stage::Stage;
 
 /// Everything that an OpenCL compiler may be told to break.
 const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
-const SCENES: [&str; 5] = ["teapot", "eyesplit", "spheres", "still-life", "gregory"];
+const SCENES: [&str; 6] = ["teapot", "eyesplit", "spheres", "still-life", "gregory", "displaced"];
 const SMALL: FrameOptions = FrameOptions {
     width: 320,
     height: 180,
@@ -240,7 +240,7 @@ fn mesh<D: Device>(
 #[test]
 fn meshes_of_frames_have_the_bits_of_the_cpu() {
     let options = FrameOptions { whole: true, ..SMALL };
-    for (scene, batch) in [("teapot", 300), ("eyesplit", 64), ("gregory", 4096)] {
+    for (scene, batch) in [("teapot", 300), ("eyesplit", 64), ("gregory", 4096), ("displaced", 1000)] {
         let (case, schedule) = (case(scene, &options), Schedule::of_batch(batch));
         let mut cpu = CpuDevice::new(1).expect("threads");
         let (vertices, indices) = mesh(&mut cpu, &case, schedule).expect("a mesh");

@@ -21,19 +21,20 @@ static PixelBox whole_image(__constant Frame *frame) {
     return (PixelBox)(0, (int)frame->width, 0, (int)frame->height);
 }
 
-// The patch's own points, and what rounding can do.
+// The patch's own points, and what rounding and displacement can do.
 static void put_patch(uint zero, __global const Object *objects, __global const Patch *patches, Surface surface,
                       Hull *hull) {
     __global const Patch *patch = patches + surface.patch_id;
     __global const Object *object = objects + patch->object;
     in_eye_space(zero, patch, object, &hull->whole);
-    float reach = extent(&hull->whole);
+    float largest = extent(&hull->whole);
     hull->is_gregory = patch->faces != 0u;
     if (hull->is_gregory) {
         faces_in_eye_space(zero, patches + patch->faces, object, &hull->faces);
-        reach = max(reach, faces_extent(&hull->faces));
+        largest = max(largest, faces_extent(&hull->faces));
     }
-    hull->slack = mul(reach, ROUNDING);
+    hull->slack = mul(largest, ROUNDING);
+    hull->reach = object->reach;
 }
 
 static void copy_net(const Net *from, Net *to) {
@@ -48,7 +49,10 @@ static void copy_net(const Net *from, Net *to) {
 static void put_part(__constant Frame *frame, Surface surface, Hull *hull) {
     const uint zero = frame->zero;
     const bool exchanged = (frame->flags & FLAG_WEBER) != 0u;
-    hull->spread = hull->is_gregory ? centre_inner(zero, &hull->faces, &hull->whole, surface, exchanged) : 0.0f;
+    hull->spread = hull->reach;
+    if (hull->is_gregory) {
+        hull->spread = add(centre_inner(zero, &hull->faces, &hull->whole, surface, exchanged), hull->reach);
+    }
     restricted(zero, &hull->whole, surface, &hull->part);
     if (hull->is_gregory) {
         copy_net(&hull->part, &hull->follower);
@@ -126,10 +130,10 @@ static void lengths_of(__constant Frame *frame, Hull *hull, Surface surface, Net
 static Seen seen_of(__constant Frame *frame, const Hull *hull, float nearest, const Net *points) {
     const uint zero = frame->zero;
     const float off_axis = max(largest_of(points->x), largest_of(points->y));
-    const float wobble = mul(mul(add(frame->focal, off_axis), hull->spread), recip(nearest));
+    const float moved = wobble(frame, off_axis, hull->spread, nearest);
     const Seen seen = {{fold_min(points->x), fold_max(points->x)},
                        {fold_min(points->y), fold_max(points->y)},
-                       add(margin(frame, hull->slack, nearest), wobble)};
+                       add(margin(frame, hull->slack, nearest), moved)};
     return seen;
 }
 

@@ -5,6 +5,21 @@
 // address a constant in them, PoCL 3.1 loses it.
 #define INLINED static __attribute__((always_inline))
 
+// What a patch is evaluated from; of an object that is displaced in its own space, else transformed.
+typedef struct {
+    // Control net: coordinate k of control point l at 16 k + l.
+    float net[48];
+    // Face points of a Gregory patch: coordinate k of point l at 8 k + l.
+    float faces[24];
+    // Not 0 if it is one.
+    uint is_gregory;
+    // Tangents no longer than this have vanished.
+    float flat_length;
+} Source;
+
+// A draw's own patch, and that of each word about its owners.
+#define SOURCES (1u + WORDS)
+
 // What all vertices of a grid share.
 typedef struct {
     // Parameters of columns and rows, where the grid is regular.
@@ -16,14 +31,8 @@ typedef struct {
     // Control points and derivatives across of each row's iso-curve: coordinate k of row r at 3 r + k.
     float4 row_point[3u * SIDE];
     float4 row_across[3u * SIDE];
-    // Control net, transformed: coordinate k of control point l at 16 k + l.
-    float net[48];
-    // Face points, transformed, of a Gregory patch: coordinate k of point l at 8 k + l.
-    float faces[24];
-    // Not 0 if it is one.
-    uint is_gregory;
-    // Tangents no longer than this have vanished.
-    float flat_length;
+    // Only an object that is displaced has more than the first.
+    Source sources[SOURCES];
 } Grid;
 
 // The curve v = constant of a patch: control points and derivatives across, a coordinate each.
@@ -141,22 +150,43 @@ static void prepare_column(uint zero, Draw draw, __local Grid *grid, uint column
 // The curve in row `row`, one coordinate.
 static void prepare_row(uint zero, __local Grid *grid, uint task) {
     const float t = param(zero, grid->row_v[task / 3u]);
-    __local const float *c = coordinate(grid->net, task % 3u);
+    __local const float *c = coordinate(grid->sources[0].net, task % 3u);
     grid->row_point[task] = curve_point(zero, c, cubic(zero, t));
     grid->row_across[task] = curve_across(zero, c, cubic_slope(zero, t));
 }
 
-// Fills in what all vertices share: the net, the columns' weights, then the rows' curves. A barrier must follow.
-INLINED void prepare(uint zero, Transform transform, __global const Patch *patch, __global const Patch *record,
-                     Draw draw, __local Grid *grid, uint lane) {
+static bool is_displaced(__global const Object *object) {
+    return object->reach > 0.0f;
+}
+
+// Coordinate `k` of control point `l`, where it is evaluated.
+static float placed(uint zero, bool stays, Transform transform, __global const Patch *patch, uint k, uint l) {
+    return stays ? in_object_space(patch, k, l) : transformed(zero, patch, row_of(transform, k), l);
+}
+
+INLINED void prepare_source(uint zero, bool stays, Transform transform, __global const Patch *patch,
+                            __global const Patch *record, __local Source *source, uint lane) {
     if (lane < 48u) {
-        grid->net[lane] = transformed(zero, patch, row_of(transform, lane / 16u), lane % 16u);
+        source->net[lane] = placed(zero, stays, transform, patch, lane / 16u, lane % 16u);
     }
     if (lane < 24u) {
-        grid->faces[lane] = transformed(zero, record, row_of(transform, lane / 8u), lane % 8u);
+        source->faces[lane] = placed(zero, stays, transform, record, lane / 8u, lane % 8u);
     }
     if (lane == GROUP - 1u) {
-        grid->is_gregory = patch->faces != 0u;
+        source->is_gregory = patch->faces != 0u;
+    }
+}
+
+// Fills in what all vertices share: the sources, the columns' weights, then the rows' curves. A barrier must follow.
+INLINED void prepare(uint zero, Transform transform, __global const Object *object, __global const Patch *patches,
+                     Draw draw, __local Grid *grid, uint lane) {
+    __global const Patch *own = patches + draw.patch_id;
+    const bool stays = is_displaced(object);
+    const uint sources = stays ? SOURCES : 1u;
+    for (uint slot = 0u; slot < sources; slot++) {
+        const uint patch_id = slot == 0u ? draw.patch_id : patch_in(own->owners[slot - 1u], draw.patch_id);
+        __global const Patch *patch = patches + patch_id;
+        prepare_source(zero, stays, transform, patch, patches + patch->faces, &grid->sources[slot], lane);
     }
     for (uint column = lane; column <= rate_u(draw); column += GROUP) {
         prepare_column(zero, draw, grid, column);
@@ -168,8 +198,9 @@ INLINED void prepare(uint zero, Transform transform, __global const Patch *patch
     for (uint task = lane; task < 3u * (rate_v(draw) + 1u); task += GROUP) {
         prepare_row(zero, grid, task);
     }
-    if (lane == GROUP - 1u) {
-        grid->flat_length = mul(size(zero, grid->net), FLAT);
+    const uint slot = GROUP - 1u - lane;
+    if (slot < sources) {
+        grid->sources[slot].flat_length = mul(size(zero, grid->sources[slot].net), FLAT);
     }
 }
 
@@ -201,8 +232,9 @@ static void evaluate(uint zero, __local const Grid *grid, uint row, uint column,
 }
 
 // The same of a vertex that has an iso-curve of its own.
-static void evaluate_moved(uint zero, __local const Grid *grid, uint2 at, float3 *position, float3 *du, float3 *dv) {
-    const IsoCurve curve = iso_curve(zero, grid->net, at.y);
+static void evaluate_moved(uint zero, __local const Source *source, uint2 at, float3 *position, float3 *du,
+                           float3 *dv) {
+    const IsoCurve curve = iso_curve(zero, source->net, at.y);
     const float t = param(zero, at.x);
     const float4 weights = cubic(zero, t);
     *position = blend_point(zero, &curve, weights);
@@ -210,8 +242,9 @@ static void evaluate_moved(uint zero, __local const Grid *grid, uint2 at, float3
     *dv = blend_across(zero, &curve, weights);
 }
 
-// Unit normal of one vertex.
-static float3 normal_from(uint zero, __local const Grid *grid, uint2 at, float3 du, float3 dv) {
-    const float3 normal = unit_normal(zero, du, dv, grid->flat_length);
-    return largest3(normal) < 0.5f ? normal_nearby(zero, grid->net, at.x, at.y, grid->flat_length) : normal;
+// The unit normal of a vertex, or one from nearby where it vanishes.
+static float3 normal_of(uint zero, __local const Source *source, uint2 at, float3 du, float3 dv) {
+    const float flat = source->flat_length;
+    const float3 normal = unit_normal(zero, du, dv, flat);
+    return largest3(normal) < 0.5f ? normal_nearby(zero, source->net, at.x, at.y, flat) : normal;
 }

@@ -52,7 +52,7 @@ static float3 gregory_coordinate(uint zero, __local const float *c, __local cons
 }
 
 // Position at a parameter, and the derivatives there along u and along v.
-static void evaluate_gregory(__constant Frame *frame, __local const Grid *grid, uint2 at, float3 *position,
+static void evaluate_gregory(__constant Frame *frame, __local const Source *source, uint2 at, float3 *position,
                              float3 *du, float3 *dv) {
     const uint zero = frame->zero;
     const float u = param(zero, at.x), v = param(zero, at.y);
@@ -60,8 +60,8 @@ static void evaluate_gregory(__constant Frame *frame, __local const Grid *grid, 
     const float3 c = blend_here(frame, 2u, u, v), d = blend_here(frame, 3u, u, v);
     const float4 share = (float4)(a.x, b.x, c.x, d.x);
     const float4 along_u = (float4)(a.y, b.y, c.y, d.y), along_v = (float4)(a.z, b.z, c.z, d.z);
-    __local const float *net = grid->net;
-    __local const float *faces = grid->faces;
+    __local const float *net = source->net;
+    __local const float *faces = source->faces;
     const float3 x = gregory_coordinate(zero, net, faces, u, v, share, along_u, along_v);
     const float3 y = gregory_coordinate(zero, net + 16, faces + 8, u, v, share, along_u, along_v);
     const float3 z = gregory_coordinate(zero, net + 32, faces + 16, u, v, share, along_u, along_v);
@@ -70,22 +70,16 @@ static void evaluate_gregory(__constant Frame *frame, __local const Grid *grid, 
     *dv = (float3)(x.z, y.z, z.z);
 }
 
-// Position of one vertex of a grid, and the derivatives there.
-static void evaluate_any(__constant Frame *frame, __local const Grid *grid, uint2 at, uint row, uint column,
+// Position of one vertex of a grid, and the derivatives there; `row` and `column` are where it is in the grid.
+static void evaluate_any(__constant Frame *frame, __local const Grid *grid, Owner owner, uint row, uint column,
                          float3 *position, float3 *du, float3 *dv) {
-    if (grid->is_gregory) {
-        evaluate_gregory(frame, grid, at, position, du, dv);
-    } else if (at.x != grid->column_u[column] || at.y != grid->row_v[row]) {
-        evaluate_moved(frame->zero, grid, at, position, du, dv);
+    __local const Source *source = grid->sources + owner.slot;
+    const uint2 at = owner.at;
+    if (source->is_gregory) {
+        evaluate_gregory(frame, source, at, position, du, dv);
+    } else if (owner.slot != 0u || at.x != grid->column_u[column] || at.y != grid->row_v[row]) {
+        evaluate_moved(frame->zero, source, at, position, du, dv);
     } else {
         evaluate(frame->zero, grid, row, column, position, du, dv);
     }
-}
-
-// Position and unit normal of one vertex of a grid.
-INLINED void position_and_normal(__constant Frame *frame, __local const Grid *grid, uint2 at, uint row, uint column,
-                                 float3 *position, float3 *normal) {
-    float3 du, dv;
-    evaluate_any(frame, grid, at, row, column, position, &du, &dv);
-    *normal = normal_from(frame->zero, grid, at, du, dv);
 }

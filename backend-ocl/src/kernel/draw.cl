@@ -29,15 +29,18 @@ static void measure(__local Measures *measures, Vertex vertex) {
 }
 
 // Vertices and their colours.
-static void dice_and_shade(__constant Frame *frame, __global const Object *object, Draw draw,
-                           __local const Grid *grid, __local Measures *measures, __global uint *grids, uint base,
-                           uint lane) {
+static void dice_and_shade(__constant Frame *frame, __global const Object *object, __global const Patch *patch,
+                           Draw draw, __local const Grid *grid, __local Measures *measures, __global uint *grids,
+                           uint base, uint lane) {
     const uint stride = rate_u(draw) + 1u, count = stride * (rate_v(draw) + 1u);
     for (uint at = lane; at < count; at += GROUP) {
         const uint row = at / stride, column = at % stride;
         const uint2 parameters = vertex_of(draw, grid, row, column);
         float3 position, normal;
-        position_and_normal(frame, grid, parameters, row, column, &position, &normal);
+        position_and_normal(frame, object, patch, grid, parameters, row, column, &position, &normal);
+        if (is_displaced(object)) {
+            place_vertex(frame->zero, to_eye_of(object), normal_to_eye_of(object), &position, &normal);
+        }
         const Vertex vertex = project(frame, position);
         measure(measures, vertex);
         put_screen(frame, grids, base, at, vertex);
@@ -116,9 +119,9 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     if (lane == GROUP - 1u) {
         clear_measures(&measures);
     }
-    prepare(frame->zero, to_eye_of(object), patch, patches + patch->faces, draw, &grid, lane);
+    prepare(frame->zero, to_eye_of(object), object, patches, draw, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    dice_and_shade(frame, object, draw, &grid, &measures, grids, base, lane);
+    dice_and_shade(frame, object, patch, draw, &grid, &measures, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
     seek_faces(frame, draw, &measures, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -14,6 +14,14 @@ static Transform as_it_is(uint zero) {
     return transform;
 }
 
+// The one that leaves normals as they are.
+static NormalTransform normals_as_they_are(uint zero) {
+    const float none = number(0), whole = number(1);
+    const NormalTransform transform = {(float3)(whole, none, none), (float3)(none, whole, none),
+                                       (float3)(none, none, whole)};
+    return transform;
+}
+
 static void put_point(__local float *points, uint at, float3 point) {
     points[at] = point.x;
     points[POINTS + at] = point.y;
@@ -33,16 +41,21 @@ static MeshVertex new_mesh_vertex(uint zero, uint patch_id, uint2 at, float3 poi
     return vertex;
 }
 
-static void put_vertices(__constant Frame *frame, Draw draw, __local const Grid *grid, __local float *points,
-                         __global MeshVertex *vertices, uint lane) {
+static void put_vertices(__constant Frame *frame, __global const Object *object, __global const Patch *patch,
+                         Draw draw, __local const Grid *grid, __local float *points, __global MeshVertex *vertices,
+                         uint lane) {
+    const uint zero = frame->zero;
     const uint stride = rate_u(draw) + 1u, count = stride * (rate_v(draw) + 1u);
     for (uint at = lane; at < count; at += GROUP) {
         const uint row = at / stride, column = at % stride;
         const uint2 parameters = vertex_of(draw, grid, row, column);
         float3 position, normal;
-        position_and_normal(frame, grid, parameters, row, column, &position, &normal);
+        position_and_normal(frame, object, patch, grid, parameters, row, column, &position, &normal);
+        if (is_displaced(object)) {
+            place_vertex(zero, as_it_is(zero), normals_as_they_are(zero), &position, &normal);
+        }
         put_point(points, at, position);
-        vertices[at] = new_mesh_vertex(frame->zero, draw.patch_id, parameters, position, normal);
+        vertices[at] = new_mesh_vertex(zero, draw.patch_id, parameters, position, normal);
     }
 }
 
@@ -66,17 +79,19 @@ static void put_indices(Draw draw, __local const float *points, uint first, __gl
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
-void stage_mesh(__constant Frame *frame, __global const Patch *patches, __global const Draw *draws,
-                __global const MeshPlace *places, __global MeshVertex *vertices, __global uint *indices) {
+void stage_mesh(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
+                __global const Draw *draws, __global const MeshPlace *places, __global MeshVertex *vertices,
+                __global uint *indices) {
     __local Grid grid;
     __local float points[3u * POINTS];
     const uint lane = get_local_id(0), index = get_group_id(0), zero = frame->zero;
     const Draw draw = draws[index];
     const MeshPlace place = places[index];
     __global const Patch *patch = patches + draw.patch_id;
-    prepare(zero, as_it_is(zero), patch, patches + patch->faces, draw, &grid, lane);
+    __global const Object *object = objects + patch->object;
+    prepare(zero, as_it_is(zero), object, patches, draw, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    put_vertices(frame, draw, &grid, points, vertices + place.vertex, lane);
+    put_vertices(frame, object, patch, draw, &grid, points, vertices + place.vertex, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     put_indices(draw, points, place.vertex, indices + 3u * (size_t)place.triangle, lane);
 }

@@ -21,10 +21,25 @@ static float4 row_of(Transform transform, uint k) {
     return k == 0u ? transform.x : (k == 1u ? transform.y : transform.z);
 }
 
+// One coordinate of a point that is moved by a transform, given the row of it.
+static float row_of_matrix(uint zero, float4 row, float3 point) {
+    return add(add(add(mul(row.x, point.x), mul(row.y, point.y)), mul(row.z, point.z)), row.w);
+}
+
+// A point, moved by the transform of its object, or by another.
+static float3 point_to_eye(uint zero, Transform transform, float3 point) {
+    return (float3)(row_of_matrix(zero, transform.x, point), row_of_matrix(zero, transform.y, point),
+                    row_of_matrix(zero, transform.z, point));
+}
+
+// Coordinate `k` of control point `l`, in the space of its object.
+static float in_object_space(__global const Patch *patch, uint k, uint l) {
+    return k == 0u ? patch->x[l] : (k == 1u ? patch->y[l] : patch->z[l]);
+}
+
 // One coordinate of control point `l`, by its row of the transform.
 static float transformed(uint zero, __global const Patch *patch, float4 row, uint l) {
-    const float xy = add(mul(row.x, patch->x[l]), mul(row.y, patch->y[l]));
-    return add(add(xy, mul(row.z, patch->z[l])), row.w);
+    return row_of_matrix(zero, row, (float3)(patch->x[l], patch->y[l], patch->z[l]));
 }
 
 static void in_eye_space(uint zero, __global const Patch *patch, __global const Object *object, Net *net) {

@@ -1,8 +1,9 @@
 // Mirrors core/src/kernel/sides.rs: how the four sides of a surface are divided, and how finely its grid is diced.
 // Also where points are for measuring lengths, and the control hull, which core has in core/src/kernel/bound.rs.
 
-// Control hull of a surface, and of the whole patch; what rounding can do. Of a Gregory patch also how far the surface
-// can be from the one whose hull it is, and another net, whose lengths are the surface's, but which bounds nothing.
+// Control hull of a surface, and of the whole patch; what rounding can do, what displacement can do, and how far what is
+// drawn can be from the surface whose hull it is. Of a Gregory patch also another net, whose lengths are the surface's,
+// but which bounds nothing.
 typedef struct {
     Net whole;
     Faces faces;
@@ -10,6 +11,7 @@ typedef struct {
     Net follower;
     bool is_gregory;
     float slack;
+    float reach;
     float spread;
 } Hull;
 
@@ -150,12 +152,25 @@ static Reach new_reach(float low, float high) {
     return reach;
 }
 
+// As far as `by` around one place.
+static Reach reach_around(uint zero, float offset, float by) {
+    return new_reach(sub(offset, by), add(offset, by));
+}
+
 // Both, and all that lies between them.
 static Reach joined(Reach a, Reach b) {
     return new_reach(min(a.low, b.low), max(a.high, b.high));
 }
 
+// How far, in pixels, points up to `off_axis` pixels from the axis move on screen if they move by `spread` along any
+// axis, and come no nearer than `nearest`.
+static float wobble(__constant Frame *frame, float off_axis, float spread, float nearest) {
+    const uint zero = frame->zero;
+    return mul(mul(add(frame->focal, off_axis), spread), recip(nearest));
+}
+
 static Strays strays_of(__constant Frame *frame, Hull *hull, Surface surface) {
+    const uint zero = frame->zero;
     const Reach none = {0.0f, 0.0f};
     Strays found = {false, none, none, 0.0f, 0.0f};
     for (uint number = 0u; number < 4u; number++) {
@@ -166,11 +181,13 @@ static Strays strays_of(__constant Frame *frame, Hull *hull, Surface surface) {
         const float3 point = point_at(frame, &hull->whole, &hull->faces, hull->is_gregory, at.x, at.y);
         const float2 seen = point_on_screen(frame, point);
         const float away = neg(point.z);
-        const Reach x = new_reach(seen.x, seen.x), y = new_reach(seen.y, seen.y);
+        const float nearest = sub(away, hull->reach), farthest = add(away, hull->reach);
+        const float by = wobble(frame, max(abs(seen.x), abs(seen.y)), hull->reach, max(nearest, frame->near));
+        const Reach x = reach_around(zero, seen.x, by), y = reach_around(zero, seen.y, by);
         found.x = found.are_some ? joined(found.x, x) : x;
         found.y = found.are_some ? joined(found.y, y) : y;
-        found.nearest = found.are_some ? min(found.nearest, away) : away;
-        found.farthest = found.are_some ? max(found.farthest, away) : away;
+        found.nearest = found.are_some ? min(found.nearest, nearest) : nearest;
+        found.farthest = found.are_some ? max(found.farthest, farthest) : farthest;
         found.are_some = true;
     }
     return found;
