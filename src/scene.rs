@@ -93,7 +93,7 @@ impl SceneObject {
         displacement.check(self.extent()).map_err(|unfit| match unfit {
             Unfit::Number => (
                 "a displacement with numbers that are out of range",
-                "height and frequency must be above 0, octaves 1 to 8",
+                "height and frequency must be above 0 (1e-12 to 1e12), octaves 1 to 8",
             ),
             Unfit::Steep => {
                 ("a displacement that is steeper than 1000000", "choose a smaller height or frequency")

@@ -153,7 +153,7 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"red\""), "this is not a colour"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nshininess = 3"), "power of two"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nscale = nan"), "scale"),
-        (bumps("height = -1, frequency = 2"), "scene.toml:8: a displacement with numbers"),
+        (bumps("height = -1, frequency = 2"), "scene.toml:10: a displacement with numbers"),
         (bumps("height = 1, frequency = 2, octaves = 9"), "octaves 1 to 8"),
         (bumps("height = 1000, frequency = 1e5"), "steeper"),
         (bumps("height = 1, frequency = 1e5, octaves = 8"), "a smaller frequency or fewer octaves"),

@@ -14,6 +14,8 @@ pub struct Displacement {
     pub octaves: u32,
 }
 
+/// Numbers may not be smaller, nor their reciprocals: far from the denormals.
+const LEAST: f32 = 1.0e-12;
 /// No slope may be steeper.
 const STEEPEST: f64 = 1.0e6;
 /// Bumps farther from the origin than so many of them would lose their shape to rounding.
@@ -22,7 +24,7 @@ const MOST_BUMPS: f64 = (1 << 20) as f64;
 /// Why an object cannot be displaced so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unfit {
-    /// A number is not finite, height is not above 0, frequency is not, or octaves are out of range.
+    /// Height, frequency or octaves are out of range.
     Number,
     /// Height × frequency is beyond a million.
     Steep,
@@ -37,7 +39,7 @@ impl Displacement {
     /// What is wrong.
     pub fn check(&self, extent: f64) -> Result<(), Unfit> {
         let Self { height, frequency, octaves } = *self;
-        let is_sound = |x: f32| x.is_finite() && x > 0.0;
+        let is_sound = |x: f32| (LEAST..=1.0 / LEAST).contains(&x);
         if !is_sound(height) || !is_sound(frequency) || !(1..=MAX_OCTAVES).contains(&octaves) {
             return Err(Unfit::Number);
         }

@@ -22,8 +22,8 @@ static PixelBox whole_image(__constant Frame *frame) {
 }
 
 // The patch's own points, and what rounding and displacement can do.
-static void put_patch(uint zero, __global const Object *objects, __global const Patch *patches, Surface surface,
-                      Hull *hull) {
+static void put_patch(uint zero, float near, __global const Object *objects, __global const Patch *patches,
+                      Surface surface, Hull *hull) {
     __global const Patch *patch = patches + surface.patch_id;
     __global const Object *object = objects + patch->object;
     in_eye_space(zero, patch, object, &hull->whole);
@@ -35,6 +35,7 @@ static void put_patch(uint zero, __global const Object *objects, __global const 
     }
     hull->slack = mul(largest, ROUNDING);
     hull->reach = object->reach;
+    hull->near = max(near, object->reach);
 }
 
 static void copy_net(const Net *from, Net *to) {
@@ -49,10 +50,8 @@ static void copy_net(const Net *from, Net *to) {
 static void put_part(__constant Frame *frame, Surface surface, Hull *hull) {
     const uint zero = frame->zero;
     const bool exchanged = (frame->flags & FLAG_WEBER) != 0u;
-    hull->spread = hull->reach;
-    if (hull->is_gregory) {
-        hull->spread = add(centre_inner(zero, &hull->faces, &hull->whole, surface, exchanged), hull->reach);
-    }
+    hull->apart = hull->is_gregory ? centre_inner(zero, &hull->faces, &hull->whole, surface, exchanged) : 0.0f;
+    hull->spread = add(hull->apart, hull->reach);
     restricted(zero, &hull->whole, surface, &hull->part);
     if (hull->is_gregory) {
         copy_net(&hull->part, &hull->follower);
@@ -62,6 +61,10 @@ static void put_part(__constant Frame *frame, Surface surface, Hull *hull) {
 
 static float nearest_of(uint zero, const Hull *hull) {
     return sub(neg(fold_max(hull->part.z)), hull->spread);
+}
+
+static float nearest_smooth(uint zero, const Hull *hull) {
+    return sub(neg(fold_max(hull->part.z)), hull->apart);
 }
 
 static float farthest_of(uint zero, const Hull *hull) {
@@ -78,9 +81,9 @@ static float margin(__constant Frame *frame, float slack, float nearest) {
 }
 
 // Where the control points are for measuring lengths.
-static void measured(__constant Frame *frame, const Net *part, Net *points) {
+static void measured(__constant Frame *frame, float near, const Net *part, Net *points) {
     for (uint l = 0u; l < 16u; l++) {
-        const float3 at = measured_point(frame, (float3)(part->x[l], part->y[l], part->z[l]));
+        const float3 at = measured_point(frame, near, (float3)(part->x[l], part->y[l], part->z[l]));
         points->x[l] = at.x;
         points->y[l] = at.y;
         points->z[l] = at.z;
@@ -121,7 +124,7 @@ static void lengths_of(__constant Frame *frame, Hull *hull, Surface surface, Net
         sides[side] = lengths->sides[side];
     }
     sides_of_gregory(frame, hull, surface, sides);
-    measured(frame, &hull->follower, points);
+    measured(frame, hull->near, &hull->follower, points);
     polygon_lengths(zero, points, lengths);
     put_sides(sides, lengths);
 }
@@ -216,9 +219,9 @@ static bool beside_the_view(__constant Frame *frame, const Net *part, float slac
 
 // How long a surface that crosses the near plane would be if all of it were there, and turned to the eye: the code of
 // the verdict on it.
-static uint code_if_cut(__constant Frame *frame, Surface surface, const Net *part, Net *points) {
+static uint code_if_cut(__constant Frame *frame, float near, Surface surface, const Net *part, Net *points) {
     const uint zero = frame->zero;
-    const float scale = mul(frame->focal, recip(frame->near));
+    const float scale = mul(frame->focal, recip(near));
     for (uint l = 0u; l < 16u; l++) {
         points->x[l] = clamp(mul(part->x[l], scale), neg(FAR_OFF), FAR_OFF);
         points->y[l] = clamp(mul(part->y[l], scale), neg(FAR_OFF), FAR_OFF);
@@ -255,7 +258,7 @@ static Verdict judge_seen(__constant Frame *frame, Hull *hull, Surface surface, 
     Net points;
     Lengths lengths;
     PixelBox pixels = whole_image(frame);
-    measured(frame, &hull->part, &points);
+    measured(frame, hull->near, &hull->part, &points);
     if (!crosses && !(strays.are_some && min(nearest, strays.nearest) < frame->near)) {
         pixels = box_around(frame, with_strays(seen_of(frame, hull, nearest, &points), strays));
     }
@@ -269,7 +272,9 @@ static Verdict judge_seen(__constant Frame *frame, Hull *hull, Surface surface, 
     if (!strays.are_some) {
         pixels = pixels_if_cut(frame, hull, farthest);
     }
-    const uint code = code_if_cut(frame, surface, &hull->part, &points);
+    const uint code = nearest_smooth(zero, hull) < hull->near
+        ? code_if_cut(frame, hull->near, surface, &hull->part, &points)
+        : by_extents(frame, surface, lengths.u, lengths.v);
     return with_sides(frame, surface, &lengths, new_verdict(code, pixels));
 }
 
@@ -278,7 +283,7 @@ static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
     if (frame->flags & FLAG_WHOLE) {
         Net points;
         Lengths lengths;
-        measured(frame, &hull->part, &points);
+        measured(frame, hull->near, &hull->part, &points);
         lengths_of(frame, hull, surface, &points, &lengths);
         return by_length(frame, surface, &lengths, whole_image(frame));
     }
@@ -286,7 +291,9 @@ static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
     const Strays strays = strays_of(frame, hull, surface);
     const float end = strays.are_some ? max(farthest, strays.farthest) : farthest;
     const bool crosses = nearest < frame->near && add(farthest, hull->slack) >= frame->near;
-    const bool is_beside = crosses && !strays.are_some
+    // Boxes of what is displaced are wide where it is near.
+    const bool is_vague = crosses || hull->reach > 0.0f;
+    const bool is_beside = is_vague && !strays.are_some
         && beside_the_view(frame, &hull->part, add(hull->slack, hull->spread));
     if (add(end, hull->slack) < frame->near || is_beside) {
         return new_verdict(CULL, (PixelBox)(0));
@@ -301,7 +308,7 @@ static PixelBox pixels_of(__constant Frame *frame, const Hull *hull) {
         return whole_image(frame);
     }
     Net points;
-    measured(frame, &hull->part, &points);
+    measured(frame, frame->near, &hull->part, &points);
     return box_around(frame, seen_of(frame, hull, nearest, &points));
 }
 
@@ -322,7 +329,7 @@ static Verdict bound_weber(__constant Frame *frame, Hull *hull, Surface surface)
 static Verdict bound_any(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
                          Surface surface) {
     Hull hull;
-    put_patch(frame->zero, objects, patches, surface, &hull);
+    put_patch(frame->zero, frame->near, objects, patches, surface, &hull);
     if (frame->flags & FLAG_WEBER) {
         return bound_weber(frame, &hull, surface);
     }

@@ -109,7 +109,7 @@ static float3 unit_normal(uint zero, float3 du, float3 dv, float flat) {
     const float square = dot3(normal, normal);
     const bool sound = long_u > flat && long_v > flat && square > PARALLEL;
     const float scale = sound ? rsqrt(max(square, PARALLEL)) : 0.0f;
-    return scale3(normal, scale);
+    return flush3(scale3(normal, scale));
 }
 
 static uint inward(uint t) {

@@ -14,6 +14,12 @@ static float2 fade(uint zero, float t) {
     return (float2)(mul(mul(tt, t), inner), mul(30.0f, mul(tt, mul(s, s))));
 }
 
+// The same of a coordinate in its cell, at whose side it may as well be.
+static float2 fade_within(uint zero, float coordinate, int cell) {
+    const float within = sub(coordinate, number(cell));
+    return fade(zero, within < LATTICE_NEAR ? 0.0f : within);
+}
+
 // Every bit of the result depends on every bit given.
 static uint mixed(uint hash) {
     const uint first = (hash ^ hash >> 16) * HASH_FIRST;
@@ -43,12 +49,12 @@ static Bump square(uint zero, int3 cell, uint octave, float3 weight, float3 slop
 
 // Value noise: from -1 to 1, with one value a unit cube's corner.
 static Bump noise(uint zero, float3 point, uint octave) {
-    const float3 p = (float3)(clamp(point.x, neg(LATTICE_END), LATTICE_END),
-                              clamp(point.y, neg(LATTICE_END), LATTICE_END),
-                              clamp(point.z, neg(LATTICE_END), LATTICE_END));
+    const float3 p = (float3)(clamp(flush(point.x), neg(LATTICE_END), LATTICE_END),
+                              clamp(flush(point.y), neg(LATTICE_END), LATTICE_END),
+                              clamp(flush(point.z), neg(LATTICE_END), LATTICE_END));
     const int3 cell = (int3)(floor(p.x), floor(p.y), floor(p.z));
-    const float2 x = fade(zero, sub(p.x, number(cell.x))), y = fade(zero, sub(p.y, number(cell.y)));
-    const float2 z = fade(zero, sub(p.z, number(cell.z)));
+    const float2 x = fade_within(zero, p.x, cell.x), y = fade_within(zero, p.y, cell.y);
+    const float2 z = fade_within(zero, p.z, cell.z);
     const float3 weight = (float3)(x.x, y.x, z.x), slope = (float3)(x.y, y.y, z.y);
     const Bump low = square(zero, cell, octave, weight, slope);
     const Bump high = square(zero, cell + (int3)(0, 0, 1), octave, weight, slope);
@@ -65,8 +71,8 @@ static Bump bump(uint zero, __global const Object *object, float3 point) {
     Bump sum = {0.0f, (float3)(0.0f, 0.0f, 0.0f)};
     for (uint octave = 0u; octave < object->octaves; octave++) {
         const Bump one = noise(zero, scale3(point, frequency), octave);
-        sum.value = add(sum.value, mul(height, one.value));
-        sum.slope = add3(sum.slope, scale3(one.slope, mul(height, frequency)));
+        sum.value = add(sum.value, flush(mul(height, one.value)));
+        sum.slope = add3(sum.slope, flush3(scale3(one.slope, mul(height, frequency))));
         height = mul(0.5f, height);
         frequency = mul(2.0f, frequency);
     }
@@ -115,7 +121,7 @@ static float3 normal_to_eye(uint zero, NormalTransform transform, float3 normal)
     const float3 there = (float3)(dot3(transform.x, even), dot3(transform.y, even), dot3(transform.z, even));
     const float3 even_there = scale3(there, unit_scale(largest3(there)));
     const float3 found = scale3(even_there, rsqrt(max(dot3(even_there, even_there), SHADE_TINY)));
-    return largest3(found) > 0.5f ? found : (float3)(0.0f, 0.0f, 1.0f);
+    return largest3(found) > 0.5f ? flush3(found) : (float3)(0.0f, 0.0f, 1.0f);
 }
 
 // Moves a displaced vertex out of the space of its object.

@@ -41,6 +41,7 @@
 #define cross3(a, b) num_cross3(zero, a, b)
 #define add3(a, b) num_add3(zero, a, b)
 #define scale3(a, s) num_scale3(zero, a, s)
+#define flush3(a) num_flush3(a)
 #define largest3(a) num_largest3(a)
 
 static float num_add(uint zero, float a, float b) {
@@ -125,6 +126,10 @@ static float num_dot3(uint zero, float3 a, float3 b) {
 static float3 num_cross3(uint zero, float3 a, float3 b) {
     return (float3)(sub(mul(a.y, b.z), mul(a.z, b.y)), sub(mul(a.z, b.x), mul(a.x, b.z)),
                     sub(mul(a.x, b.y), mul(a.y, b.x)));
+}
+
+static float3 num_flush3(float3 a) {
+    return (float3)(num_flush(a.x), num_flush(a.y), num_flush(a.z));
 }
 
 static float3 num_add3(uint zero, float3 a, float3 b) {

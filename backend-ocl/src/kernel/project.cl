@@ -5,10 +5,10 @@ typedef struct {
     float w;
 } Vertex;
 
-// Pixel offsets right of and below the optical axis, and 1 / distance.
-static float3 perspective(__constant Frame *frame, float3 point) {
+// Pixel offsets right of and below the optical axis, and 1 / distance, of a point no nearer than `near`, or taken to be.
+static float3 perspective(__constant Frame *frame, float near, float3 point) {
     const uint zero = frame->zero;
-    const float w = recip(max(neg(point.z), frame->near));
+    const float w = recip(max(neg(point.z), near));
     const float scale = mul(frame->focal, w);
     return (float3)(mul(point.x, scale), mul(neg(point.y), scale), w);
 }
@@ -26,7 +26,7 @@ static Vertex snapped(__constant Frame *frame, float3 seen) {
 }
 
 static Vertex project(__constant Frame *frame, float3 point) {
-    const float3 seen = perspective(frame, point);
+    const float3 seen = perspective(frame, frame->near, point);
     const bool visible =
         neg(point.z) >= frame->near && abs(seen.x) <= GUARD_BAND && abs(seen.y) <= GUARD_BAND;
     Vertex vertex = snapped(frame, seen);
@@ -35,5 +35,5 @@ static Vertex project(__constant Frame *frame, float3 point) {
 }
 
 static Vertex project_clipped(__constant Frame *frame, float3 point) {
-    return snapped(frame, perspective(frame, point));
+    return snapped(frame, perspective(frame, frame->near, point));
 }

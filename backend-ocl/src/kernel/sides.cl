@@ -1,9 +1,9 @@
 // Mirrors core/src/kernel/sides.rs: how the four sides of a surface are divided, and how finely its grid is diced.
 // Also where points are for measuring lengths, and the control hull, which core has in core/src/kernel/bound.rs.
 
-// Control hull of a surface, and of the whole patch; what rounding can do, what displacement can do, and how far what is
-// drawn can be from the surface whose hull it is. Of a Gregory patch also another net, whose lengths are the surface's,
-// but which bounds nothing.
+// Control hull of a surface, and of the whole patch; what rounding can do, what displacement can do, how far the surface
+// can be from the one whose hull it is, and the sum of both. Of a Gregory patch also another net, whose lengths are the
+// surface's, but which bounds nothing.
 typedef struct {
     Net whole;
     Faces faces;
@@ -12,7 +12,10 @@ typedef struct {
     bool is_gregory;
     float slack;
     float reach;
+    float apart;
     float spread;
+    // What is nearer than this is measured as if it were this far away.
+    float near;
 } Hull;
 
 // Lengths in pixels: of the longest lines along u and along v, and of the sides, by number.
@@ -37,20 +40,20 @@ typedef struct {
     float farthest;
 } Strays;
 
-static float2 point_on_screen(__constant Frame *frame, float3 point) {
-    const float3 seen = perspective(frame, point);
+static float2 point_on_screen(__constant Frame *frame, float near, float3 point) {
+    const float3 seen = perspective(frame, near, point);
     return (float2)(clamp(seen.x, neg(FAR_OFF), FAR_OFF), clamp(seen.y, neg(FAR_OFF), FAR_OFF));
 }
 
 // Where a point is for measuring lengths: on screen; or on a sheet of pixels that surrounds the eye.
-static float3 measured_point(__constant Frame *frame, float3 point) {
+static float3 measured_point(__constant Frame *frame, float near, float3 point) {
     const uint zero = frame->zero;
     if ((frame->flags & FLAG_WHOLE) == 0u) {
-        const float2 seen = point_on_screen(frame, point);
+        const float2 seen = point_on_screen(frame, near, point);
         return (float3)(seen.x, seen.y, 0.0f);
     }
     const float before = max(neg(point.z), mul(largest3(point), frame->around));
-    return scale3(point, mul(frame->focal, recip(max(before, frame->near))));
+    return scale3(point, mul(frame->focal, recip(max(before, near))));
 }
 
 // `distance` in core, which is a function of OpenCL's that may not be called here.
@@ -130,7 +133,8 @@ static float side_inside(__constant Frame *frame, Hull *hull, Surface surface, u
     float3 seen[5];
     for (uint k = 0u; k < 5u; k++) {
         const uint2 at = on_side(surface, side, extent_of(surface, side).x + k * quarter);
-        seen[k] = measured_point(frame, point_at(frame, &hull->whole, &hull->faces, true, at.x, at.y));
+        const float3 point = point_at(frame, &hull->whole, &hull->faces, true, at.x, at.y);
+        seen[k] = measured_point(frame, hull->near, point);
     }
     const float outer = add(distance_of(zero, seen[0], seen[1]), distance_of(zero, seen[3], seen[4]));
     return add(outer, add(distance_of(zero, seen[1], seen[2]), distance_of(zero, seen[2], seen[3])));
@@ -179,7 +183,7 @@ static Strays strays_of(__constant Frame *frame, Hull *hull, Surface surface) {
         }
         const uint2 at = corner(surface, number);
         const float3 point = point_at(frame, &hull->whole, &hull->faces, hull->is_gregory, at.x, at.y);
-        const float2 seen = point_on_screen(frame, point);
+        const float2 seen = point_on_screen(frame, frame->near, point);
         const float away = neg(point.z);
         const float nearest = sub(away, hull->reach), farthest = add(away, hull->reach);
         const float by = wobble(frame, max(abs(seen.x), abs(seen.y)), hull->reach, max(nearest, frame->near));

@@ -27,6 +27,7 @@ const OWNER_IS_CORNER: u32 = 8u;
 const OWNER_IS_REVERSED: u32 = 1u;
 const MAX_OCTAVES: u32 = 8u;
 const LATTICE_END: f32 = 4.194304e6f;
+const LATTICE_NEAR: f32 = 9.536743e-7f;
 const LATTICE_STEP: f32 = 1.1920929e-7f;
 const HASH_X: u32 = 73856093u;
 const HASH_Y: u32 = 19349663u;

@@ -59,7 +59,7 @@ fn safe_stack(random: &mut fastrand::Rng, count: u32, room: u32, levels: u32) ->
 
 pub(super) fn local(random: &mut fastrand::Rng) -> Parts {
     let (frame, objects, patches) = scene(random);
-    let most = one_of(random, [frame.levels + 8, 300, LOCAL_STACK]);
+    let most = one_of(random, [frame.levels + 8, 150, LOCAL_STACK]);
     let room = random.u32(frame.levels..=most);
     let count = random.usize(1..6);
     let (mut groups, mut dealt) = (Vec::new(), Vec::new());

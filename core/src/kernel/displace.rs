@@ -7,12 +7,13 @@
 
 use crate::abi::{
     Draw, FLAT, Frame, HASH_FIRST, HASH_OCTAVE, HASH_SECOND, HASH_X, HASH_Y, HASH_Z, LATTICE_END,
-    LATTICE_STEP, Object, Patch, SHADE_TINY,
+    LATTICE_NEAR, LATTICE_STEP, Object, Patch, SHADE_TINY,
 };
 use crate::kernel::dice::{Grid, Vertex, evaluate_bezier, normal_of, prepare_grid, project_all, size};
 use crate::kernel::dice_gregory::evaluate_gregory;
 use crate::num::{
-    add, add3, clamp, dot3, float, floor, largest3, max, mul, neg, rsqrt, scale3, sub, unit_scale,
+    add, add3, clamp, dot3, float, floor, flush, flush3, largest3, max, mul, neg, rsqrt, scale3, sub,
+    unit_scale,
 };
 use crate::patch::gregory::mix;
 use crate::patch::{Faces, Net};
@@ -34,8 +35,8 @@ pub fn bump(object: &Object, point: [f32; 3]) -> Bump {
     let mut out = Bump::default();
     for octave in 0..object.octaves {
         let noise = noise(scale3(point, frequency), octave);
-        out.value = add(out.value, mul(height, noise.value));
-        out.slope = add3(out.slope, scale3(noise.slope, mul(height, frequency)));
+        out.value = add(out.value, flush(mul(height, noise.value)));
+        out.slope = add3(out.slope, flush3(scale3(noise.slope, mul(height, frequency))));
         (height, frequency) = (mul(0.5, height), mul(2.0, frequency));
     }
     out
@@ -47,9 +48,10 @@ pub fn bump(object: &Object, point: [f32; 3]) -> Bump {
 pub fn noise(point: [f32; 3], octave: u32) -> Bump {
     let (mut cell, mut weight, mut slope) = ([0; 3], [0.0; 3], [0.0; 3]);
     for k in 0..3 {
-        let c = clamp(point[k], neg(LATTICE_END), LATTICE_END);
+        let c = clamp(flush(point[k]), neg(LATTICE_END), LATTICE_END);
         cell[k] = floor(c);
-        (weight[k], slope[k]) = fade(sub(c, float(cell[k])));
+        let within = sub(c, float(cell[k]));
+        (weight[k], slope[k]) = fade(if within < LATTICE_NEAR { 0.0 } else { within });
     }
     let at = |x: i32, y: i32, z: i32| lattice([cell[0] + x, cell[1] + y, cell[2] + z], octave);
     let low = square([[at(0, 0, 0), at(1, 0, 0)], [at(0, 1, 0), at(1, 1, 0)]], weight, slope);
@@ -167,6 +169,6 @@ impl Object {
             [[m[0], m[1], m[2]], [m[3], m[4], m[5]], [m[6], m[7], m[8]]].map(|row| dot3(row, normal));
         let turned = scale3([x, y, z], unit_scale(largest3([x, y, z])));
         let unit = scale3(turned, rsqrt(max(dot3(turned, turned), SHADE_TINY)));
-        if largest3(unit) > 0.5 { unit } else { [0.0, 0.0, 1.0] }
+        if largest3(unit) > 0.5 { flush3(unit) } else { [0.0, 0.0, 1.0] }
     }
 }
