@@ -13,7 +13,7 @@ use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::backend::Device;
 use micropoly_core::known::{Mismatch, check};
 
-const SCENES: [&str; 5] = ["teapot", "eyesplit", "spheres", "still-life", "gregory"];
+const SCENES: [&str; 6] = ["teapot", "eyesplit", "spheres", "still-life", "gregory", "displaced"];
 const SIZES: [(u32, u32); 3] = [(160, 90), (320, 180), (640, 360)];
 /// One more, where it is not a matter of minutes: not on devices that only pretend to be a GPU.
 const LARGE: (u32, u32) = (1280, 720);

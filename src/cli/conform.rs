@@ -67,6 +67,7 @@ fn cases(files: &[std::path::PathBuf]) -> Result<Vec<Case>> {
         built_in("eyesplit", include_str!("../../scenes/eyesplit.toml"))?,
         built_in("spheres", include_str!("../../scenes/spheres.toml"))?,
         built_in("gregory", include_str!("../../scenes/gregory.toml"))?,
+        built_in("displaced", include_str!("../../scenes/displaced.toml"))?,
     ];
     for file in files {
         scenes.push(Scene::load(file)?);
