@@ -9,17 +9,20 @@ use crate::abi::{
     Draw, FLAT, Frame, HASH_FIRST, HASH_OCTAVE, HASH_SECOND, HASH_X, HASH_Y, HASH_Z, LATTICE_END,
     LATTICE_NEAR, LATTICE_STEP, Object, Patch, SHADE_TINY,
 };
-use crate::kernel::dice::{Grid, Vertex, evaluate_bezier, normal_of, prepare_grid, project_all, size};
+use crate::kernel::dice::{
+    Grid, LANES, Vertex, evaluate_bezier, load3, normal_of, prepare_grid, project_all, size, store,
+};
 use crate::kernel::dice_gregory::evaluate_gregory;
 use crate::num::{
     add, add3, clamp, dot3, float, floor, flush, flush3, largest3, max, mul, neg, rsqrt, scale3, sub,
     unit_scale,
 };
 use crate::patch::gregory::mix;
+use crate::patch::owner::Owner;
 use crate::patch::{Faces, Net};
 
 /// A number that varies in space, and its derivatives along x, y and z.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bump {
     /// The number.
     pub value: f32,
@@ -27,19 +30,24 @@ pub struct Bump {
     pub slope: [f32; 3],
 }
 
-/// How far a point of an object is displaced, in object units.
+/// How far points of an object are displaced, in object units, and how that changes along x, y and z.
 #[inline(always)]
 #[must_use]
-pub fn bump(object: &Object, point: [f32; 3]) -> Bump {
+pub fn bump<const N: usize>(object: &Object, point: &[[f32; N]; 3]) -> ([f32; N], [[f32; N]; 3]) {
     let (mut height, mut frequency) = (object.height, object.frequency);
-    let mut out = Bump::default();
+    let (mut value, mut slope) = ([0.0; N], [[0.0; N]; 3]);
     for octave in 0..object.octaves {
-        let noise = noise(scale3(point, frequency), octave);
-        out.value = add(out.value, flush(mul(height, noise.value)));
-        out.slope = add3(out.slope, flush3(scale3(noise.slope, mul(height, frequency))));
+        for l in 0..N {
+            let noise = noise(scale3(lane(point, l), frequency), octave);
+            let steep = flush3(scale3(noise.slope, mul(height, frequency)));
+            value[l] = add(value[l], flush(mul(height, noise.value)));
+            slope[0][l] = add(slope[0][l], steep[0]);
+            slope[1][l] = add(slope[1][l], steep[1]);
+            slope[2][l] = add(slope[2][l], steep[2]);
+        }
         (height, frequency) = (mul(0.5, height), mul(2.0, frequency));
     }
-    out
+    (value, slope)
 }
 
 /// Value noise: from -1 to 1, with one value a unit cube's corner.
@@ -119,14 +127,11 @@ impl Source {
         Self { faces: record.map(Faces::in_object_space), flat: mul(size(&net), FLAT), net }
     }
 
-    /// The point at a parameter, displaced; and a normal, not unit.
+    /// The point at a parameter, and the unit normal there.
     #[inline(always)]
-    fn displaced(&self, frame: &Frame, object: &Object, u: u32, v: u32) -> ([f32; 3], [f32; 3]) {
+    fn vertex(&self, frame: &Frame, u: u32, v: u32) -> ([f32; 3], [f32; 3]) {
         let vertex = self.evaluate(frame, u, v);
-        let normal = normal_of(&self.net, &vertex, u, v, self.flat);
-        let Bump { value, slope } = bump(object, vertex.point);
-        let along = add3(slope, scale3(normal, neg(dot3(slope, normal))));
-        (add3(vertex.point, scale3(normal, value)), add3(normal, scale3(along, -1.0)))
+        (vertex.point, normal_of(&self.net, &vertex, u, v, self.flat))
     }
 
     #[inline(always)]
@@ -140,22 +145,57 @@ impl Source {
 
 /// Fills positions, normals and snapped vertices of a surface of an object that is displaced, as
 /// [`crate::kernel::dice::dice`] does of one that is not.
-#[inline(never)]
+#[inline(always)]
 pub fn dice_displaced(frame: &Frame, patches: &[Patch], object: &Object, draw: Draw, grid: &mut Grid) {
     prepare_grid(draw, grid);
+    dice_smooth(frame, patches, draw, grid);
+    for block in grid.blocks() {
+        displace_block(object, block, grid);
+    }
+    project_all(frame, grid);
+}
+
+/// Positions and unit normals before they are displaced, each on its owner, in the space of the object.
+#[inline(never)]
+fn dice_smooth(frame: &Frame, patches: &[Patch], draw: Draw, grid: &mut Grid) {
     let patch = &patches[draw.patch_id as usize];
     let own = Source::new(patches, draw.patch_id);
     for at in 0..grid.stride * grid.rows {
         let [u, v] = draw.vertex((at / grid.stride) as u32, (at % grid.stride) as u32);
-        let owner = patch.owner(draw.patch_id, u, v);
-        let (point, normal) = if owner.patch_id == draw.patch_id {
-            own.displaced(frame, object, owner.u, owner.v)
+        let Owner { patch_id, u, v } = patch.owner(draw.patch_id, u, v);
+        let (point, normal) = if patch_id == draw.patch_id {
+            own.vertex(frame, u, v)
         } else {
-            Source::new(patches, owner.patch_id).displaced(frame, object, owner.u, owner.v)
+            Source::new(patches, patch_id).vertex(frame, u, v)
         };
-        grid.put(at, object.point_to_eye(point), object.normal_to_eye(normal));
+        grid.put(at, point, normal);
     }
-    project_all(frame, grid);
+}
+
+/// Displaces [`LANES`] vertices, and moves them to eye space.
+#[inline(always)]
+fn displace_block(object: &Object, block: usize, grid: &mut Grid) {
+    let (point, normal) = (load3(&grid.position, block), load3(&grid.normal, block));
+    let (mut points, mut normals) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
+    let (value, slope) = bump(object, &point);
+    for l in 0..LANES {
+        let (point, normal, slope) = (lane(&point, l), lane(&normal, l), lane(&slope, l));
+        let along = add3(slope, scale3(normal, neg(dot3(slope, normal))));
+        let moved = object.point_to_eye(add3(point, scale3(normal, value[l])));
+        let turned = object.normal_to_eye(add3(normal, scale3(along, -1.0)));
+        for k in 0..3 {
+            (points[k][l], normals[k][l]) = (moved[k], turned[k]);
+        }
+    }
+    for k in 0..3 {
+        store(&mut grid.position[k], block, &points[k]);
+        store(&mut grid.normal[k], block, &normals[k]);
+    }
+}
+
+#[inline(always)]
+const fn lane<const N: usize>(all: &[[f32; N]; 3], l: usize) -> [f32; 3] {
+    [all[0][l], all[1][l], all[2][l]]
 }
 
 impl Object {
