@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
+use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
 use micropoly::{Backend, Batch, Borders, FrameOptions, Profile, RenderOptions, Scheduler};
 
@@ -28,6 +29,8 @@ pub(crate) enum Command {
     Info(InfoArguments),
     /// List every device of every backend, with driver and limits.
     Devices,
+    /// Compare two pictures, value by value; exit code 3 says that they differ by more than is allowed.
+    Diff(DiffArguments),
     /// Find out, device by device and stage by stage, whether all devices give the same bits.
     Conform(ConformArguments),
     /// Measure subdivision: scheduler × batch × scene × backend (Weber 2014, Table 7.2).
@@ -132,6 +135,50 @@ pub(crate) struct InfoArguments {
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DiffArguments {
+    /// A picture: PNG (8 or 16 bits) or EXR.
+    pub(crate) first: PathBuf,
+    /// Another one of the same size and kind.
+    pub(crate) second: PathBuf,
+    /// A pixel fails if one of its values differs by more than this; values of PNG files run from 0 to 1.
+    #[arg(long, value_name = "X", default_value = "0", value_parser = from_zero)]
+    fail: f32,
+    /// So many per cent of the pixels may fail.
+    #[arg(long, value_name = "P", default_value = "0", value_parser = from_zero)]
+    fail_percent: f32,
+    /// No value of any pixel may differ by more than this.
+    #[arg(long, value_name = "X", default_value = "inf", value_parser = from_zero)]
+    hard_fail: f32,
+    /// Write a picture of the differences (.png): black where there is none, then blue, red, yellow, white.
+    #[arg(long, value_name = "FILE", value_parser = png_path)]
+    pub(crate) heat: Option<PathBuf>,
+    /// The difference that is white in that picture.
+    #[arg(long, value_name = "X", default_value = "0.1", value_parser = above_zero)]
+    pub(crate) white: f32,
+    /// Write the result as JSON to this file instead; - writes to standard output.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+impl DiffArguments {
+    pub(crate) fn thresholds(&self) -> Thresholds {
+        let Self { fail, fail_percent, hard_fail, .. } = *self;
+        Thresholds { fail, fail_percent: f64::from(fail_percent), hard_fail }
+    }
+}
+
+fn from_zero(text: &str) -> Result<f32, String> {
+    text.parse().ok().filter(|x: &f32| *x >= 0.0).ok_or_else(|| "give a number from 0".to_owned())
+}
+
+fn above_zero(text: &str) -> Result<f32, String> {
+    from_zero(text)
+        .ok()
+        .filter(|x| *x > 0.0 && x.is_finite())
+        .ok_or_else(|| "give a number above 0".to_owned())
 }
 
 #[derive(Debug, Args)]

@@ -14,6 +14,7 @@ mod bench;
 mod bench_dicing;
 mod conform;
 mod devices;
+mod diff;
 mod info;
 mod plot;
 mod progress;
@@ -31,6 +32,9 @@ use args::{Arguments, Command};
 /// Exit code when a backend is missing, as for wrong arguments.
 const UNAVAILABLE: u8 = 2;
 
+/// Exit code when two pictures differ by more than is allowed.
+const DIFFERENT: u8 = 3;
+
 /// Runs the program and turns errors into messages and exit codes.
 pub(crate) fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
@@ -38,6 +42,10 @@ pub(crate) fn main() -> ExitCode {
         Command::Tessellate(arguments) => tessellate::run(&arguments),
         Command::Info(arguments) => info::run(&arguments),
         Command::Devices => devices::run(),
+        Command::Diff(arguments) => match diff::run(&arguments) {
+            Ok(false) => return ExitCode::from(DIFFERENT),
+            outcome => outcome.map(|_| ()),
+        },
         Command::Conform(arguments) => conform::run(&arguments),
         Command::Bench(arguments) if arguments.dicing => bench_dicing::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
