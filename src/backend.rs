@@ -1,11 +1,12 @@
 //! Choice of a backend: what was built in, what is there, and what to say if it is not.
 
 use micropoly_core::backend::Device;
+use micropoly_core::camera::Camera;
 use micropoly_core::render::Counts;
 
 use crate::devices::{DeviceEntry, Job, devices_of, find, with_device};
 use crate::error::{Error, Result};
-use crate::render::{RenderOptions, Rendering, render_on};
+use crate::render::{RenderOptions, Rendering, render_from, render_on};
 use crate::scene::Scene;
 
 /// What renders.
@@ -138,6 +139,24 @@ pub fn render<F: FnMut(&Counts)>(
     Ok(Rendering { backend, notes, ..rendering })
 }
 
+/// Renders a scene as seen by one camera after the other, on one device; `each` is given every rendering, by number.
+///
+/// # Errors
+/// As [`render`]; what `each` reports.
+pub fn render_frames(
+    scene: &Scene,
+    options: &RenderOptions,
+    cameras: &[Camera],
+    mut each: impl FnMut(usize, Rendering) -> Result<()>,
+) -> Result<Vec<String>> {
+    let (done, notes) = on_first_device(options, |entry| {
+        let job = RenderFrames { scene, options, cameras, backend: entry.backend, each: &mut each };
+        with_device(entry, options.threads, job)
+    })?;
+    done?;
+    Ok(notes)
+}
+
 /// What `attempt` makes of the first device that the options mean and that opens; and what a user should be told
 /// about that.
 pub(crate) fn on_first_device<T>(
@@ -176,8 +195,30 @@ struct Render<'a, F> {
 impl<F: FnMut(&Counts)> Job for Render<'_, F> {
     type Output = Result<Rendering>;
 
-    fn run<D: Device>(self, device: D, name: String) -> Result<Rendering> {
-        render_on(device, name, self.scene, self.options, self.progress)
+    fn run<D: Device>(self, mut device: D, name: String) -> Result<Rendering> {
+        render_on(&mut device, name, self.scene, self.options, self.progress)
+    }
+}
+
+/// Rendering a scene from several cameras, as a job for any device.
+struct RenderFrames<'a, F> {
+    scene: &'a Scene,
+    options: &'a RenderOptions,
+    cameras: &'a [Camera],
+    backend: Backend,
+    each: F,
+}
+
+impl<F: FnMut(usize, Rendering) -> Result<()>> Job for RenderFrames<'_, F> {
+    type Output = Result<()>;
+
+    fn run<D: Device>(self, mut device: D, name: String) -> Result<()> {
+        let Self { scene, options, cameras, backend, mut each } = self;
+        for (number, camera) in cameras.iter().enumerate() {
+            let rendering = render_from(&mut device, name.clone(), (scene, camera), options, |_| {})?;
+            each(number, Rendering { backend, ..rendering })?;
+        }
+        Ok(())
     }
 }
 

@@ -103,6 +103,12 @@ pub(crate) fn linear_from_srgb(value: f64) -> f64 {
     if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
 }
 
+/// The sRGB value, 0 to 1, of a linear value, which is first moved into that range.
+pub(crate) fn srgb_from_linear(value: f64) -> f64 {
+    let value = value.clamp(0.0, 1.0);
+    if value <= 0.0031308 { value * 12.92 } else { 1.055 * libm::pow(value, 1.0 / 2.4) - 0.055 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,5 +123,13 @@ mod tests {
         assert_eq!(encoder.encode(-1.0), 0);
         assert_eq!(encoder.encode(2.0), 255);
         assert_eq!(encoder.encode(f32::NAN), 0);
+    }
+
+    #[test]
+    fn the_curve_and_its_inverse_agree() {
+        for level in 0..=1000 {
+            let value = f64::from(level) / 1000.0;
+            assert!((srgb_from_linear(linear_from_srgb(value)) - value).abs() < 1.0e-6, "{value}");
+        }
     }
 }

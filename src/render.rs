@@ -4,13 +4,14 @@ use std::time::Instant;
 
 use micropoly_core::abi::{Frame, Patch, Sample, Shared};
 use micropoly_core::backend::Device;
-use micropoly_core::camera::FrameOptions;
+use micropoly_core::camera::{Camera, FrameOptions};
 use micropoly_core::memory::{DEFAULT_BATCH, Room, Sizes};
-use micropoly_core::render::{Counts, FramePlan};
+use micropoly_core::render::{Buffers, Counts, FramePlan};
 use micropoly_core::schedule::Scheduler;
 
 use crate::backend::Backend;
 use crate::error::{Error, Result};
+use crate::film::Film;
 use crate::image::{Encoder, Image};
 use crate::scene::{DeviceScene, Scene};
 use crate::timed::{Seconds, Timed};
@@ -62,6 +63,8 @@ pub struct RenderOptions {
     pub capacity: u32,
     /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
     pub threads: usize,
+    /// Keep linear values, too: [`Rendering::film`].
+    pub film: bool,
 }
 
 /// An image, and what it took.
@@ -69,6 +72,8 @@ pub struct RenderOptions {
 pub struct Rendering {
     /// The image.
     pub image: Image,
+    /// Its linear values, if they were asked for.
+    pub film: Option<Film>,
     /// What was counted on the way.
     pub counts: Counts,
     /// Buffer sizes, and so the proven bounds.
@@ -90,15 +95,26 @@ pub struct Rendering {
 /// # Errors
 /// [`Error::Scene`], [`Error::Plan`] (among them a level of BREADTH beyond the budget) or [`Error::Device`].
 pub fn render_on<D: Device>(
-    device: D,
+    device: &mut D,
     device_name: String,
     scene: &Scene,
     options: &RenderOptions,
     progress: impl FnMut(&Counts),
 ) -> Result<Rendering> {
+    render_from(device, device_name, (scene, &scene.camera), options, progress)
+}
+
+/// As [`render_on`], seen by another camera than the scene's own.
+pub(crate) fn render_from<D: Device>(
+    device: &mut D,
+    device_name: String,
+    (scene, camera): (&Scene, &Camera),
+    options: &RenderOptions,
+    progress: impl FnMut(&Counts),
+) -> Result<Rendering> {
     let start = Instant::now();
-    let DeviceScene { frame, objects, patches } = scene.for_device(&options.frame)?;
-    let (plan, notes) = plan_on(&device, scene, options, frame)?;
+    let DeviceScene { frame, objects, patches } = scene.seen_from(camera, &options.frame)?;
+    let (plan, notes) = plan_on(device, scene, options, frame)?;
     let sizes = *plan.sizes();
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::on_device(&error);
@@ -108,9 +124,12 @@ pub fn render_on<D: Device>(
     let bytes_allocated = device.bytes_allocated();
     let resolving = Instant::now();
     let image = resolve(&mut device, &buffers.colours, scene, &options.frame).map_err(failed)?;
+    let film = options.film.then(|| film_of(&mut device, &buffers, scene, &options.frame));
+    let film = film.transpose().map_err(failed)?;
     let seconds = Seconds { setup, resolve: resolving.elapsed().as_secs_f64(), ..device.seconds };
     Ok(Rendering {
         image,
+        film,
         counts,
         sizes,
         bytes_allocated,
@@ -185,6 +204,36 @@ fn note_on(options: &RenderOptions, sizes: &Sizes, room: Room) -> Option<String>
         )),
         _ => None,
     }
+}
+
+/// Linear values of all samples.
+fn film_of<D: Device>(
+    device: &mut D,
+    buffers: &Buffers<D::Buffer>,
+    scene: &Scene,
+    options: &FrameOptions,
+) -> std::result::Result<Film, D::Error> {
+    let FrameOptions { width, height, .. } = *options;
+    let count = width as usize * height as usize;
+    let colours = read_all(device, &buffers.colours, count)?;
+    let samples = read_all(device, &buffers.samples, count)?;
+    Ok(Film { width, height, background: scene.background, colours, samples })
+}
+
+/// Entries that are read at once.
+const BLOCK: usize = 1 << 16;
+
+/// The first entries of a buffer.
+pub(crate) fn read_all<D: Device, T: Shared>(
+    device: &mut D,
+    buffer: &D::Buffer,
+    count: usize,
+) -> std::result::Result<Vec<T>, D::Error> {
+    let mut all = vec![T::zeroed(); count];
+    for (index, block) in all.chunks_mut(BLOCK).enumerate() {
+        device.read(buffer, (index * BLOCK) as u64, block)?;
+    }
+    Ok(all)
 }
 
 fn resolve<D: Device>(

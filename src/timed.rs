@@ -29,18 +29,18 @@ pub struct Seconds {
 }
 
 /// Passes everything on to a device and adds up the time each stage takes.
-pub(crate) struct Timed<D> {
-    device: D,
+pub(crate) struct Timed<'a, D> {
+    device: &'a mut D,
     pub(crate) seconds: Seconds,
 }
 
-impl<D> Timed<D> {
-    pub(crate) fn new(device: D) -> Self {
+impl<'a, D> Timed<'a, D> {
+    pub(crate) fn new(device: &'a mut D) -> Self {
         Self { device, seconds: Seconds::default() }
     }
 }
 
-impl<D: Device> Device for Timed<D> {
+impl<D: Device> Device for Timed<'_, D> {
     type Buffer = D::Buffer;
     type Error = D::Error;
 

@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Render a scene to a PNG file.
+    /// Render a scene to a PNG or EXR file.
     Render(RenderArguments),
     /// Write a scene as a mesh of triangles, as fine as its camera needs them, without a crack.
     Tessellate(TessellateArguments),
@@ -41,9 +41,16 @@ pub(crate) enum Command {
 pub(crate) struct RenderArguments {
     /// Scene file (.toml, .mscene) or patch file (.bpt).
     pub(crate) scene: PathBuf,
-    /// Image file to write (.png).
-    #[arg(short, long, value_name = "FILE", value_parser = png_path)]
+    /// Image file to write: .png, or .exr with linear colour, coverage, depth and patch. With --frames, # in its name
+    /// stands for the number of the frame (#### for at least four digits).
+    #[arg(short, long, value_name = "FILE", value_parser = image_path)]
     pub(crate) output: PathBuf,
+    /// Bits a value: 8 or 16 in PNG files, 16 or 32 in EXR files.
+    #[arg(long, value_name = "8|16|32", value_parser = bits)]
+    pub(crate) bits: Option<u32>,
+    /// Render these frames of the camera's path, A to B, both included.
+    #[arg(long, value_name = "A..B", value_parser = frames, conflicts_with = "stats")]
+    pub(crate) frames: Option<(u32, u32)>,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,
     /// Write statistics as JSON to this file; - writes to standard output.
@@ -490,6 +497,26 @@ fn png_path(text: &str) -> Result<PathBuf, String> {
         Ok(path)
     } else {
         Err("only PNG images can be written: choose a name that ends in .png".into())
+    }
+}
+
+fn image_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        Some("png" | "exr") => Ok(path),
+        _ => Err("only PNG and EXR images can be written: choose a name that ends in .png or .exr".into()),
+    }
+}
+
+fn bits(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|bits| [8, 16, 32].contains(bits)).ok_or_else(|| "choose 8, 16 or 32".to_owned())
+}
+
+fn frames(text: &str) -> Result<(u32, u32), String> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    match (first.trim().parse(), last.trim().parse()) {
+        (Ok(first), Ok(last)) if first <= last => Ok((first, last)),
+        _ => Err("write two numbers, the first no larger than the second, for example 0..99".into()),
     }
 }
 

@@ -16,6 +16,7 @@ mod conform;
 mod devices;
 mod diff;
 mod info;
+mod output;
 mod plot;
 mod progress;
 mod render;

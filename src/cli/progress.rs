@@ -4,7 +4,6 @@ use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle as BarStyle};
-use micropoly::Counts;
 
 use super::args::ProgressStyle;
 
@@ -15,31 +14,32 @@ const PLAIN_INTERVAL: Duration = Duration::from_secs(2);
 
 pub(crate) struct Progress {
     style: ProgressStyle,
-    patches: u64,
+    total: u64,
+    unit: &'static str,
     start: Instant,
     last_line: Instant,
     bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    pub(crate) fn new(style: ProgressStyle, patches: u64) -> Self {
+    /// Of so many patches or frames.
+    pub(crate) fn new(style: ProgressStyle, total: u64, unit: &'static str) -> Self {
         let now = Instant::now();
-        Self { style, patches, start: now, last_line: now, bar: None }
+        Self { style, total, unit, start: now, last_line: now, bar: None }
     }
 
-    /// Shows how many patches have been worked on, if it is time to.
-    pub(crate) fn update(&mut self, counts: &Counts) {
+    /// Shows how many have been worked on, if it is time to.
+    pub(crate) fn update(&mut self, begun: u64, message: impl Fn() -> String) {
         if self.style == ProgressStyle::None || self.start.elapsed() < PATIENCE {
             return;
         }
-        let begun = counts.roots_taken;
         if self.style == ProgressStyle::Auto && std::io::stderr().is_terminal() {
-            let bar = self.bar.get_or_insert_with(|| bar(self.patches));
+            let bar = self.bar.get_or_insert_with(|| bar(self.total, self.unit));
             bar.set_position(begun);
-            bar.set_message(format!("{} surfaces", counts.processed));
+            bar.set_message(message());
         } else if self.last_line.elapsed() >= PLAIN_INTERVAL {
             self.last_line = Instant::now();
-            eprintln!("{begun} of {} patches begun, {} surfaces", self.patches, counts.processed);
+            eprintln!("{begun} of {} {} begun, {}", self.total, self.unit, message());
         }
     }
 
@@ -51,9 +51,10 @@ impl Progress {
     }
 }
 
-fn bar(patches: u64) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(patches), ProgressDrawTarget::stderr());
-    if let Ok(style) = BarStyle::with_template("{bar:32} {pos}/{len} patches  {msg}  {elapsed}, {eta} left") {
+fn bar(total: u64, unit: &str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
+    let template = format!("{{bar:32}} {{pos}}/{{len}} {unit}  {{msg}}  {{elapsed}}, {{eta}} left");
+    if let Ok(style) = BarStyle::with_template(&template) {
         bar.set_style(style);
     }
     bar

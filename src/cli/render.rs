@@ -1,32 +1,38 @@
 //! `micropoly render`.
 
 use std::io::Write;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::Instant;
 
 use micropoly::stats::Stats;
-use micropoly::{Error, Result, Scene, Seconds};
+use micropoly::{Camera, Error, RenderOptions, Result, Scene, Seconds};
 
 use super::args::RenderArguments;
+use super::output::{Kind, numbered};
 use super::progress::Progress;
 use super::summary;
 
 pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let start = Instant::now();
-    let options = arguments.options();
+    let kind = Kind::of(&arguments.output, arguments.bits)?;
+    let options = RenderOptions { film: kind.needs_film(), ..arguments.options() };
     check_folder(&arguments.output)?;
     let scene = Scene::load(&arguments.scene)?;
     let load = start.elapsed().as_secs_f64();
-
-    let mut progress = Progress::new(arguments.progress, scene.patch_count() as u64);
-    let rendering = micropoly::render(&scene, &options, |counts| progress.update(counts))?;
-    progress.finish();
-    for note in &rendering.notes {
-        eprintln!("note: {note}");
+    if let Some((first, last)) = arguments.frames {
+        return render_path(arguments, &scene, &options, kind, first..=last);
     }
 
+    let mut progress = Progress::new(arguments.progress, scene.patch_count() as u64, "patches");
+    let rendering = micropoly::render(&scene, &options, |counts| {
+        progress.update(counts.roots_taken, || format!("{} surfaces", counts.processed));
+    })?;
+    progress.finish();
+    tell(&rendering.notes);
+
     let encoding = Instant::now();
-    rendering.image.save_png(&arguments.output)?;
+    kind.save(&rendering, &arguments.output)?;
     let encode = encoding.elapsed().as_secs_f64();
     let total = start.elapsed().as_secs_f64();
     let seconds = Seconds { load, encode, total, ..rendering.seconds };
@@ -36,6 +42,49 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     }
     eprint!("{}", summary::of(&stats, &arguments.output));
     Ok(())
+}
+
+/// Renders frames of the camera's path, a file each.
+fn render_path(
+    arguments: &RenderArguments,
+    scene: &Scene,
+    options: &RenderOptions,
+    kind: Kind,
+    frames: RangeInclusive<u32>,
+) -> Result<()> {
+    let start = Instant::now();
+    let file = |frame| {
+        numbered(&arguments.output, frame).ok_or_else(|| {
+            let problem = format!("{}: all frames would be written to one file", arguments.output.display());
+            Error::scene(problem, "put # into the file's name where the number is to be: out.####.png")
+        })
+    };
+    file(0)?;
+    let numbers: Vec<u32> = frames.collect();
+    let cameras: Vec<Camera> =
+        numbers.iter().map(|frame| scene.camera_at(f64::from(*frame))).collect::<Result<_>>()?;
+    let mut progress = Progress::new(arguments.progress, cameras.len() as u64, "frames");
+    let mut done = 0;
+    let notes = micropoly::render_frames(scene, options, &cameras, |number, rendering| {
+        kind.save(&rendering, &file(numbers[number])?)?;
+        done += 1;
+        progress.update(done, || rendering.image.hash());
+        if number == 0 {
+            tell(&rendering.notes);
+        }
+        Ok(())
+    })?;
+    progress.finish();
+    tell(&notes);
+    eprintln!("images        {done}, {}", arguments.output.display());
+    eprintln!("seconds       {:.3}", start.elapsed().as_secs_f64());
+    Ok(())
+}
+
+fn tell(notes: &[String]) {
+    for note in notes {
+        eprintln!("note: {note}");
+    }
 }
 
 /// Finds out before a long rendering that its file could not be written.

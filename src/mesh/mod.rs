@@ -12,7 +12,7 @@ mod weld;
 use std::path::Path;
 
 use glam::{DAffine3, DMat3, Vec3};
-use micropoly_core::abi::{MeshVertex, Patch, Shared};
+use micropoly_core::abi::{MeshVertex, Patch};
 use micropoly_core::backend::Device;
 use micropoly_core::render::FramePlan;
 use micropoly_core::tessellate::MeshBuffers;
@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use crate::backend::on_first_device;
 use crate::devices::{Job, with_device};
 use crate::error::{Error, Result};
-use crate::render::{RenderOptions, plan_on};
+use crate::render::{RenderOptions, plan_on, read_all};
 use crate::scene::{DeviceScene, Scene};
 
 /// Triangles of a scene, in world space. Of each patch a vertex is there once; vertices on the common edge of two
@@ -160,9 +160,6 @@ impl Job for Tessellate<'_> {
     }
 }
 
-/// Vertices and indices that are fetched at once.
-const BLOCK: usize = 1 << 16;
-
 fn fetch<D: Device>(
     device: &mut D,
     plan: &FramePlan,
@@ -175,18 +172,6 @@ fn fetch<D: Device>(
     let indices: Vec<u32> = read_all(device, &indices, 3 * totals.triangles as usize)?;
     let mesh = Mesh::new(scene, &seen.patches, &vertices, &indices);
     Ok(Mesh { limited: counts.depth_limited, ..mesh })
-}
-
-fn read_all<D: Device, T: Shared>(
-    device: &mut D,
-    buffer: &D::Buffer,
-    count: usize,
-) -> std::result::Result<Vec<T>, D::Error> {
-    let mut all = vec![T::zeroed(); count];
-    for (index, block) in all.chunks_mut(BLOCK).enumerate() {
-        device.read(buffer, (index * BLOCK) as u64, block)?;
-    }
-    Ok(all)
 }
 
 /// From the space of an object to the world.
