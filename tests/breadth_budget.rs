@@ -77,12 +77,12 @@ struct Render<'a>(&'a Scene, Batch);
 impl Job for Render<'_> {
     type Output = (Result<Rendering>, u64);
 
-    fn run<D: Device>(self, mut device: D, name: String) -> Self::Output {
+    fn run<D: Device>(self, device: D, name: String) -> Self::Output {
         let frame = FrameOptions { width: 320, height: 180, bound: 4.0, ..FrameOptions::default() };
         let options =
             RenderOptions { frame, batch: self.1, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
         let most = Rc::new(Cell::new(0));
-        let device = Watched { device, most: Rc::clone(&most) };
+        let mut device = Watched { device, most: Rc::clone(&most) };
         let outcome = render_on(&mut device, name, self.0, &options, |_| {});
         (outcome, most.get() + OWN)
     }
