@@ -41,6 +41,8 @@ files! {
     DICE: "dice",
     DICE_BEZIER: "dice_bezier",
     DICE_GREGORY: "dice_gregory",
+    OWNER: "owner",
+    DISPLACE: "displace",
     SHADE: "shade",
     TRIANGLE: "triangle",
     CLIP: "clip",
@@ -73,7 +75,8 @@ files! {
 /// The kernels: one a stage, those into which the fused stage is cut, and those that count groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// A stage other than the fused one; of `bound` and `local`, what Bézier patches and our own profile need.
+    /// A stage other than the fused one; of `bound` and `local`, what plain scenes need: Bézier patches that are not
+    /// displaced, in our own profile.
     Stage(Stage),
     /// All of `bound`.
     BoundAny,
@@ -83,7 +86,7 @@ pub enum Which {
     Arrange,
     /// The next chunk of draws.
     ArrangeDraw,
-    /// Dices and shades a chunk, if all patches are Bézier patches.
+    /// Dices and shades a chunk, if all patches are Bézier patches and none is displaced.
     Draw,
     /// Dices and shades a chunk.
     DrawAny,
@@ -239,9 +242,22 @@ impl Which {
             Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
             Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
             Self::Stage(Stage::MeshPlaces) => &[GEN, COUNTS, SURFACE, BORDER, MESH_PLACES],
-            Self::Stage(Stage::Mesh) => {
-                &[GEN, ITEMS, NUM, SURFACE, BORDER, BEZIER, NET, AS_IT_IS, GREGORY, DICE, DICE_GREGORY, MESH]
-            }
+            Self::Stage(Stage::Mesh) => &[
+                GEN,
+                ITEMS,
+                NUM,
+                SURFACE,
+                BORDER,
+                BEZIER,
+                NET,
+                AS_IT_IS,
+                GREGORY,
+                DICE,
+                DICE_GREGORY,
+                OWNER,
+                DISPLACE,
+                MESH,
+            ],
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],
@@ -276,6 +292,8 @@ impl Which {
                 TRIANGLE,
                 DICE,
                 DICE_GREGORY,
+                OWNER,
+                DISPLACE,
                 SHADE,
                 DRAW,
             ],

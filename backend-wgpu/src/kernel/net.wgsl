@@ -24,6 +24,15 @@ fn faces_of(patch_id: u32) -> u32 {
     return patches_more[patch_id - here].faces;
 }
 
+// The owner of a side or corner: see core/src/patch/owner.rs.
+fn owner_word(patch_id: u32, word: u32) -> u32 {
+    let here = arrayLength(&patches);
+    if patch_id < here {
+        return patches[patch_id].owners[word];
+    }
+    return patches_more[patch_id - here].owners[word];
+}
+
 fn control_point(patch_id: u32, l: u32) -> vec3<f32> {
     let here = arrayLength(&patches);
     if patch_id < here {
