@@ -46,8 +46,8 @@ pub struct WgpuDevice {
 }
 
 impl WgpuDevice {
-    /// Opens device number `index` of [`crate::devices`], compiles its kernels (those of LOCAL and of meshes when they
-    /// are first needed) and checks its arithmetic.
+    /// Opens device number `index` of [`crate::devices`], compiles its kernels (those that few frames need when they are
+    /// first needed) and checks its arithmetic.
     ///
     /// `edit` may change each kernel file before it is compiled: for mutation tests.
     ///

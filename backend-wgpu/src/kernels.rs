@@ -135,6 +135,17 @@ impl Which {
         Self::ALL.iter().position(|which| *which == self).expect("every kernel is in the list")
     }
 
+    /// Is it compiled only when it is first needed? Those of LOCAL, of meshes, and for any patch and profile are.
+    const fn can_wait(self) -> bool {
+        matches!(
+            self,
+            Self::Stage(Stage::Local | Stage::MeshPlaces | Stage::Mesh)
+                | Self::BoundAny
+                | Self::LocalAny
+                | Self::DrawAny
+        )
+    }
+
     /// Its name in messages.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -358,15 +369,14 @@ pub(crate) enum Slot {
     Source(String),
 }
 
-/// Compiles a kernel; of those of LOCAL and of meshes, which few frames need and which take long, only the source is
-/// kept.
+/// Compiles a kernel; of those that few frames need and that take long, only the source is kept.
 pub(crate) fn prepared(
     device: &wgpu::Device,
     which: Which,
     edit: Option<Edit<'_>>,
 ) -> Result<Slot, WgpuError> {
     let source = source(which.files(), edit);
-    if matches!(which, Which::Stage(Stage::Local | Stage::MeshPlaces | Stage::Mesh) | Which::LocalAny) {
+    if which.can_wait() {
         return Ok(Slot::Source(source));
     }
     compiled(device, which, &source).map(Slot::Compiled)
