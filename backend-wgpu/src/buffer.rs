@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use micropoly_core::abi::{FLAG_WEBER, FLAG_WHOLE, Frame, Layout, Patch, Shared};
+use micropoly_core::abi::{FLAG_WEBER, FLAG_WHOLE, Frame, Layout, Object, Patch, Shared};
 
 use crate::error::WgpuError;
 
@@ -44,6 +44,8 @@ impl WgpuBuffer {
     pub(crate) fn note<T: Shared>(&self, data: &[T]) {
         let is_general = if T::LAYOUT == Patch::LAYOUT {
             bytemuck::cast_slice::<T, Patch>(data).iter().any(|patch| patch.faces > 0)
+        } else if T::LAYOUT == Object::LAYOUT {
+            bytemuck::cast_slice::<T, Object>(data).iter().any(|object| object.reach > 0.0)
         } else if T::LAYOUT == Frame::LAYOUT {
             bytemuck::cast_slice::<T, Frame>(data)
                 .iter()

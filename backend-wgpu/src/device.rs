@@ -46,8 +46,8 @@ pub struct WgpuDevice {
 }
 
 impl WgpuDevice {
-    /// Opens device number `index` of [`crate::devices`], compiles its kernels (those of LOCAL and of meshes when they
-    /// are first needed) and checks its arithmetic.
+    /// Opens device number `index` of [`crate::devices`], compiles its kernels (those that few frames need when they are
+    /// first needed) and checks its arithmetic.
     ///
     /// `edit` may change each kernel file before it is compiled: for mutation tests.
     ///
@@ -265,7 +265,7 @@ impl WgpuDevice {
     /// Runs MESH on the first `count` draws: a group each, and the kernel knows how many there are by the length of
     /// what is bound.
     fn mesh(&mut self, count: u32, buffers: &[&WgpuBuffer]) -> Result<(), WgpuError> {
-        let &[frame, patches, draws, places, vertices, indices] = buffers else {
+        let &[frame, objects, patches, draws, places, vertices, indices] = buffers else {
             return Err(WgpuError::Bindings { stage: Stage::Mesh.name() });
         };
         if u64::from(count) > draws.entries().min(places.entries()) {
@@ -278,6 +278,7 @@ impl WgpuDevice {
         let draws = wgpu::BufferBinding { buffer: draws.memory(), offset: 0, size: Some(bytes) };
         let parts = [
             frame.memory().as_entire_binding(),
+            objects.memory().as_entire_binding(),
             patches.memory().as_entire_binding(),
             wgpu::BindingResource::Buffer(draws),
             places.memory().as_entire_binding(),

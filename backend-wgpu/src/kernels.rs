@@ -41,6 +41,8 @@ files! {
     DICE: "dice",
     DICE_BEZIER: "dice_bezier",
     DICE_GREGORY: "dice_gregory",
+    OWNER: "owner",
+    DISPLACE: "displace",
     SHADE: "shade",
     TRIANGLE: "triangle",
     CLIP: "clip",
@@ -73,7 +75,8 @@ files! {
 /// The kernels: one a stage, those into which the fused stage is cut, and those that count groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// A stage other than the fused one; of `bound` and `local`, what Bézier patches and our own profile need.
+    /// A stage other than the fused one; of `bound` and `local`, what plain scenes need: Bézier patches that are not
+    /// displaced, in our own profile.
     Stage(Stage),
     /// All of `bound`.
     BoundAny,
@@ -83,7 +86,7 @@ pub enum Which {
     Arrange,
     /// The next chunk of draws.
     ArrangeDraw,
-    /// Dices and shades a chunk, if all patches are Bézier patches.
+    /// Dices and shades a chunk, if all patches are Bézier patches and none is displaced.
     Draw,
     /// Dices and shades a chunk.
     DrawAny,
@@ -130,6 +133,17 @@ impl Which {
     /// Its place in [`Which::ALL`].
     pub(crate) fn index(self) -> usize {
         Self::ALL.iter().position(|which| *which == self).expect("every kernel is in the list")
+    }
+
+    /// Is it compiled only when it is first needed? Those of LOCAL, of meshes, and for any patch and profile are.
+    const fn can_wait(self) -> bool {
+        matches!(
+            self,
+            Self::Stage(Stage::Local | Stage::MeshPlaces | Stage::Mesh)
+                | Self::BoundAny
+                | Self::LocalAny
+                | Self::DrawAny
+        )
     }
 
     /// Its name in messages.
@@ -239,9 +253,22 @@ impl Which {
             Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
             Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
             Self::Stage(Stage::MeshPlaces) => &[GEN, COUNTS, SURFACE, BORDER, MESH_PLACES],
-            Self::Stage(Stage::Mesh) => {
-                &[GEN, ITEMS, NUM, SURFACE, BORDER, BEZIER, NET, AS_IT_IS, GREGORY, DICE, DICE_GREGORY, MESH]
-            }
+            Self::Stage(Stage::Mesh) => &[
+                GEN,
+                ITEMS,
+                NUM,
+                SURFACE,
+                BORDER,
+                BEZIER,
+                NET,
+                AS_IT_IS,
+                GREGORY,
+                DICE,
+                DICE_GREGORY,
+                OWNER,
+                DISPLACE,
+                MESH,
+            ],
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],
@@ -276,6 +303,8 @@ impl Which {
                 TRIANGLE,
                 DICE,
                 DICE_GREGORY,
+                OWNER,
+                DISPLACE,
                 SHADE,
                 DRAW,
             ],
@@ -340,15 +369,14 @@ pub(crate) enum Slot {
     Source(String),
 }
 
-/// Compiles a kernel; of those of LOCAL and of meshes, which few frames need and which take long, only the source is
-/// kept.
+/// Compiles a kernel; of those that few frames need and that take long, only the source is kept.
 pub(crate) fn prepared(
     device: &wgpu::Device,
     which: Which,
     edit: Option<Edit<'_>>,
 ) -> Result<Slot, WgpuError> {
     let source = source(which.files(), edit);
-    if matches!(which, Which::Stage(Stage::Local | Stage::MeshPlaces | Stage::Mesh) | Which::LocalAny) {
+    if which.can_wait() {
         return Ok(Slot::Source(source));
     }
     compiled(device, which, &source).map(Slot::Compiled)

@@ -8,8 +8,10 @@ use micropoly_core::abi::{
     Control, DRAW, Draw, Frame, Group, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Shared,
     Surface, Verdict,
 };
+use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::backend::Device;
 use micropoly_core::border::Side;
+use micropoly_core::displacement::Displacement;
 use micropoly_core::kernel::known_answers::answer;
 use micropoly_core::memory::stack_min;
 use micropoly_core::schedule::Scheduler;
@@ -29,6 +31,16 @@ fn case(scene: &str, options: FrameOptions) -> Case {
         objects: device.objects,
         patches: device.patches,
     }
+}
+
+/// A scene with bumps on all of it.
+fn displaced(scene: &str, options: FrameOptions) -> Case {
+    let mut case = case(scene, options);
+    let bumps = Displacement { height: 0.05, frequency: 4.0, octaves: 3 };
+    case.objects.iter_mut().for_each(|object| *object = object.displaced(&bumps, 2.0));
+    let mut room = vec![0; room_needed(&case.patches)];
+    find_owners(&mut case.patches, &mut room);
+    Case { name: format!("displaced {}", case.name), ..case }
 }
 
 fn small() -> FrameOptions {
@@ -83,12 +95,21 @@ fn gregory_patches_and_webers_rules_have_the_same_bits() {
     assert_same(&case("teapot", weber), &[4096]);
 }
 
+/// The vertices of edges are evaluated on the nets of other patches: see `owner.wgsl`.
+#[test]
+fn displaced_patches_have_the_same_bits() {
+    assert_same(&case("displaced", small()), &[500, 4096]);
+    assert_same(&case("displaced", FrameOptions { borders: Borders::Naive, rate: 7, ..small() }), &[4096]);
+    assert_same(&displaced("gregory", small()), &[4096]);
+}
+
 /// One group and many, stacks as small as they can be and as large as they are without a capacity.
 #[test]
 fn groups_with_stacks_of_their_own_give_the_same_bits() {
     let weber = FrameOptions { profile: Profile::Weber2014, rate: 8, bound: 8.0, ..small() };
     let mut device = open();
-    for case in [case("teapot", small()), case("gregory", small()), case("eyesplit", weber)] {
+    let displaced = displaced("gregory", small());
+    for case in [case("teapot", small()), case("gregory", small()), case("eyesplit", weber), displaced] {
         let (expected, least) = (on_cpu(&case), stack_min(u64::from(case.frame.levels)) as u32);
         for (batch, capacity) in [(1, least), (64, 0), (1000, 16 * least + 50), (20_000, 0)] {
             let schedule = Schedule { scheduler: Scheduler::Local, batch, capacity };
@@ -188,8 +209,8 @@ fn many_groups_are_spread_over_two_dimensions() {
 /// Words of a mesh's vertices, and its indices.
 type Words = (Vec<u32>, Vec<u32>);
 
-/// The mesh that `draws` come to, but for the last draw.
-fn mesh<D: Device>(device: &mut D, patches: &[Patch], draws: &[Draw]) -> Words {
+/// The mesh that `draws` of a scene come to, but for the last draw.
+fn mesh<D: Device>(device: &mut D, (objects, patches): (&[Object], &[Patch]), draws: &[Draw]) -> Words {
     let count = draws.len() as u32 - 1;
     let sizes = draws[..count as usize].iter().map(|draw| (draw.vertices(), draw.triangles()));
     let (vertices, triangles) = sizes.fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
@@ -198,6 +219,7 @@ fn mesh<D: Device>(device: &mut D, patches: &[Patch], draws: &[Draw]) -> Words {
     };
     let buffers = (
         reserve("frame", Frame::LAYOUT, 1),
+        reserve("objects", Object::LAYOUT, objects.len()),
         reserve("patches", Patch::LAYOUT, patches.len()),
         reserve("control", Control::LAYOUT, 1),
         reserve("draws", Draw::LAYOUT, draws.len()),
@@ -206,12 +228,13 @@ fn mesh<D: Device>(device: &mut D, patches: &[Patch], draws: &[Draw]) -> Words {
         reserve("vertices", MeshVertex::LAYOUT, vertices as usize),
         reserve("indices", u32::LAYOUT, 3 * triangles as usize),
     );
-    let (frame, stored, control, drawn, places, totals, vertex, index) = &buffers;
+    let (frame, placed, stored, control, drawn, places, totals, vertex, index) = &buffers;
+    device.write(placed, objects).expect("writes");
     device.write(stored, patches).expect("writes");
     device.write(drawn, draws).expect("writes");
     device.write(control, &[Control { waiting: 5, fresh: count - 5, ..Control::default() }]).expect("writes");
     device.dispatch(Stage::MeshPlaces, Items::Count(1), &[control, drawn, places, totals]).expect("runs");
-    let mesh = [frame, stored, drawn, places, vertex, index];
+    let mesh = [frame, placed, stored, drawn, places, vertex, index];
     device.dispatch(Stage::Mesh, Items::Count(count), &mesh).expect("runs");
     let mut found = [MeshTotals::default()];
     device.read(totals, 0, &mut found).expect("reads");
@@ -232,46 +255,47 @@ fn whole(patch_id: u32, rates: [u32; 2]) -> Draw {
 /// More draws than one dimension of a dispatch has groups; the groups that are too many leave all alone.
 #[test]
 fn meshes_of_many_draws_are_spread_over_two_dimensions() {
-    let patches = case("teapot", small()).patches;
+    let Case { objects, patches, .. } = case("teapot", small());
     let mut draws: Vec<Draw> = (0..70_000).map(|index| whole(1 + index % 30, [1, 1 + index % 2])).collect();
     draws.push(whole(0, [16, 16]));
-    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), &patches, &draws);
-    assert!(mesh(&mut open(), &patches, &draws) == expected);
+    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), (&objects, &patches), &draws);
+    assert!(mesh(&mut open(), (&objects, &patches), &draws) == expected);
 }
 
 /// Control points of a mesh stay as they are, except that -0 becomes 0.
 #[test]
 fn meshes_have_no_negative_zeros() {
-    let mut patches = case("gregory", small()).patches;
+    let Case { objects, mut patches, .. } = case("gregory", small());
     patches.iter_mut().for_each(|patch| patch.z = [-0.0; 16]);
     let count = patches.len() as u32;
     let draws: Vec<Draw> = (0..count).map(|patch_id| whole(patch_id, [3, 2])).collect();
-    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), &patches, &draws);
+    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), (&objects, &patches), &draws);
     assert!(expected.0.chunks(9).all(|vertex| vertex[2] == 0), "z is 0");
-    assert!(mesh(&mut open(), &patches, &draws) == expected);
+    assert!(mesh(&mut open(), (&objects, &patches), &draws) == expected);
 }
 
 /// Patches that one binding has no room for lie in two, for meshes too.
 #[test]
 fn meshes_of_patches_in_two_pieces_have_the_same_bits() {
-    let patches = case("spheres", small()).patches;
+    let Case { objects, patches, .. } = case("spheres", small());
     let count = patches.len() as u32;
     let draws: Vec<Draw> = (0..50).chain(count - 50..count).map(|patch_id| whole(patch_id, [5, 8])).collect();
-    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), &patches, &draws);
+    let expected = mesh(&mut CpuDevice::new(1).expect("threads"), (&objects, &patches), &draws);
     let mut device = open();
     device.limit_buffers(250_000);
     assert!(patches.len() as u64 * Patch::LAYOUT.size as u64 > 250_000);
-    assert!(mesh(&mut device, &patches, &draws) == expected);
+    assert!(mesh(&mut device, (&objects, &patches), &draws) == expected);
 }
 
 #[test]
 fn a_mesh_of_more_draws_than_there_are_is_an_error() {
     let mut device = open();
     let mut reserve = |name, layout| device.allocate(name, layout, 3).expect("memory");
-    let (frame, patches) = (reserve("frame", Frame::LAYOUT), reserve("patches", Patch::LAYOUT));
+    let (frame, objects) = (reserve("frame", Frame::LAYOUT), reserve("objects", Object::LAYOUT));
+    let patches = reserve("patches", Patch::LAYOUT);
     let (draws, places) = (reserve("draws", Draw::LAYOUT), reserve("places", MeshPlace::LAYOUT));
     let (vertices, indices) = (reserve("vertices", MeshVertex::LAYOUT), reserve("indices", u32::LAYOUT));
-    let buffers = [&frame, &patches, &draws, &places, &vertices, &indices];
+    let buffers = [&frame, &objects, &patches, &draws, &places, &vertices, &indices];
     device.dispatch(Stage::Mesh, Items::Count(0), &buffers).expect("nothing to do");
     let error = device.dispatch(Stage::Mesh, Items::Count(4), &buffers).expect_err("more than there are");
     assert!(matches!(error, WgpuError::Bindings { stage: "mesh" }), "{error}");
@@ -280,9 +304,12 @@ fn a_mesh_of_more_draws_than_there_are_is_an_error() {
 /// A whole frame, by batches whose draws follow each other; then as its user copies it.
 #[test]
 fn tessellated_frames_have_the_same_bits() {
+    let mut device = open();
+    let bumpy = case("displaced", FrameOptions { whole: true, ..small() });
+    let expected = tessellated(&mut CpuDevice::new(1).expect("threads"), &bumpy).1;
+    assert!(tessellated(&mut device, &bumpy).1 == expected);
     let case = case("gregory", FrameOptions { whole: true, ..small() });
     let expected = tessellated(&mut CpuDevice::new(1).expect("threads"), &case).1;
-    let mut device = open();
     let (mesh, found) = tessellated(&mut device, &case);
     assert!(found == expected);
     let bytes = u64::from(mesh.totals.triangles) * 12;
@@ -325,11 +352,13 @@ fn a_buffer_beyond_the_limits_is_an_error() {
 /// Patches that one binding has no room for lie in two.
 #[test]
 fn patches_in_two_pieces_give_the_same_bits() {
-    let case = case("spheres", FrameOptions { width: 160, height: 90, ..FrameOptions::default() });
-    let mut device = open();
-    device.limit_buffers(250_000);
-    assert!(case.patches.len() as u64 * Patch::LAYOUT.size as u64 > 250_000);
-    assert_eq!(run(&mut device, &case, 500).expect("renders"), on_cpu(&case));
+    let tiny = FrameOptions { width: 160, height: 90, ..FrameOptions::default() };
+    for case in [case("spheres", tiny), displaced("spheres", tiny)] {
+        let mut device = open();
+        device.limit_buffers(250_000);
+        assert!(case.patches.len() as u64 * Patch::LAYOUT.size as u64 > 250_000);
+        assert_eq!(run(&mut device, &case, 500).expect("renders"), on_cpu(&case), "{}", case.name);
+    }
 }
 
 /// llvmpipe ends loops after 65535 iterations; that may fail, but must not give other bits.

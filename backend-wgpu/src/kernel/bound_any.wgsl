@@ -1,5 +1,5 @@
-// Mirrors core/src/kernel/bound.rs: what of it concerns Gregory patches, the rules of Weber's program, and meshes that
-// are to be whole.
+// Mirrors core/src/kernel/bound.rs: what of it concerns Gregory patches, displacement, the rules of Weber's program,
+// and meshes that are to be whole.
 
 // Control points of a surface that is even nearer than the one whose hull is known, if the patch is a Gregory
 // patch: its lengths are the surface's.
@@ -7,6 +7,8 @@ var<private> FOLLOWER: Net;
 // The patch's face points.
 var<private> FACES: Faces;
 var<private> IS_GREGORY: bool;
+// What displacement can do, along any axis of eye space.
+var<private> REACH: f32;
 
 fn is_whole() -> bool {
     return (frame.flags & FLAG_WHOLE) != 0u;
@@ -81,13 +83,31 @@ fn line_inside(net: Net, surface: Surface, side: u32) -> f32 {
     return add(add(chords.x, chords.w), add(chords.y, chords.z));
 }
 
-fn wobble_of(points: Net, spread: f32, nearest: f32) -> f32 {
-    let off_axis = max(largest_of(points.x), largest_of(points.y));
+// How far, in pixels, points up to `off_axis` pixels from the axis move on screen if they move by `spread` along any
+// axis, and come no nearer than `nearest`.
+fn wobble(off_axis: f32, spread: f32, nearest: f32) -> f32 {
     return mul(mul(add(frame.focal, off_axis), spread), recip(nearest));
+}
+
+fn wobble_of(points: Net, spread: f32, nearest: f32) -> f32 {
+    return wobble(max(largest_of(points.x), largest_of(points.y)), spread, nearest);
 }
 
 fn largest_of(c: array<f32, 16>) -> f32 {
     return max(fold_max(c), neg(fold_min(c)));
+}
+
+// Mirrors core/src/kernel/sides.rs (Strays): where a corner is that has strayed, wherever it is displaced to.
+fn stray_at(point: vec3<f32>) -> Strays {
+    let seen = point_on_screen(point);
+    let distances = around(neg(point.z), REACH);
+    let by = wobble(max(abs(seen.x), abs(seen.y)), REACH, max(distances.low, frame.near));
+    return Strays(around(seen.x, by), around(seen.y, by), distances, true);
+}
+
+// As far as `by` around one place.
+fn around(place: f32, by: f32) -> Reach {
+    return Reach(sub(place, by), add(place, by));
 }
 
 fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
@@ -112,6 +132,7 @@ fn pixels_of(hull: Hull) -> vec4<i32> {
 fn bound_any(surface: Surface) -> Verdict {
     let record = faces_of(surface.patch_id);
     IS_GREGORY = record != 0u;
+    REACH = objects[object_of(surface.patch_id)].reach;
     let whole = in_eye_space(surface.patch_id);
     var hull: Hull;
     if IS_GREGORY {
@@ -120,6 +141,7 @@ fn bound_any(surface: Surface) -> Verdict {
     } else {
         hull = hull_of_bezier(whole, surface);
     }
+    hull.spread = add(hull.spread, REACH);
     if (frame.flags & FLAG_WEBER) == 0u {
         return judge(surface, hull);
     }

@@ -1,5 +1,5 @@
-// Mirrors core/src/kernel/bound.rs: what of it concerns Bezier patches in our own profile only, seen by a camera. Most
-// scenes need no more, and a software device would run the rest for nothing.
+// Mirrors core/src/kernel/bound.rs: what of it concerns Bezier patches only that are not displaced, in our own profile,
+// seen by a camera. Most scenes need no more, and a software device would run the rest for nothing.
 
 fn bound_any(surface: Surface) -> Verdict {
     return bound(surface);
@@ -21,6 +21,13 @@ fn measured_point(point: vec3<f32>) -> vec3<f32> {
 // Lengths on screen of a hull whose control points are measured to be at `points`.
 fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
     return lengths_of_polygons(polygons_u(points), polygons_v(points));
+}
+
+// Where a corner is that has strayed.
+fn stray_at(point: vec3<f32>) -> Strays {
+    let seen = point_on_screen(point);
+    let distance = neg(point.z);
+    return Strays(Reach(seen.x, seen.x), Reach(seen.y, seen.y), Reach(distance, distance), true);
 }
 
 fn wobble_of(points: Net, spread: f32, nearest: f32) -> f32 {

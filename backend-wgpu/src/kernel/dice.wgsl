@@ -12,8 +12,8 @@ const GROUP: u32 = 64u;
 // An invocation each prepares what vertices share.
 const_assert BORDER <= GROUP && ROW_CURVES <= GROUP;
 
-// Control net: coordinate k of control point l at 16 k + l.
-var<workgroup> net: array<f32, 48>;
+// Control nets; the patch's own is number 0. Coordinate k of control point l of net n at 48 n + 16 k + l.
+var<workgroup> nets: array<f32, 48u * NETS>;
 // Parameters of columns and rows where the grid is regular.
 var<workgroup> column_u: array<u32, STRIDE>;
 var<workgroup> row_v: array<u32, STRIDE>;
@@ -24,8 +24,8 @@ var<workgroup> column_slope: array<vec3<f32>, STRIDE>;
 var<workgroup> row_point: array<vec4<f32>, ROW_CURVES>;
 var<workgroup> row_across: array<vec4<f32>, ROW_CURVES>;
 const ROW_CURVES: u32 = 3u * STRIDE;
-// Tangents no longer than this have vanished.
-var<workgroup> flat_length: f32;
+// Tangents no longer than this have vanished, a net each.
+var<workgroup> flat_lengths: array<f32, NETS>;
 // Parameters of the border's vertices, and what is there, by `border_slot`.
 var<workgroup> border_uv: array<vec2<u32>, BORDER>;
 var<workgroup> border: array<Evaluated, BORDER>;
@@ -33,14 +33,33 @@ var<workgroup> border: array<Evaluated, BORDER>;
 // Is the grid regular up to its border?
 var<private> IS_REGULAR: bool;
 
-// Control points 4 i ..= 4 i + 3 of coordinate k.
-fn net_row(k: u32, i: u32) -> vec4<f32> {
-    let at = 16u * k + 4u * i;
-    return vec4<f32>(net[at], net[at + 1u], net[at + 2u], net[at + 3u]);
+// Where a vertex is evaluated: number of a net, and u and v there.
+struct Owner {
+    n: u32,
+    u: u32,
+    v: u32,
 }
 
-fn net_point(l: u32) -> vec3<f32> {
-    return vec3<f32>(net[l], net[16u + l], net[32u + l]);
+// Position and unit normal of a vertex.
+struct Diced {
+    point: vec3<f32>,
+    normal: vec3<f32>,
+}
+
+// As many nets as the patch needs.
+fn net_count() -> u32 {
+    return select(1u, NETS, IS_DISPLACED);
+}
+
+// Control points 4 i ..= 4 i + 3 of coordinate k of net n.
+fn net_row(n: u32, k: u32, i: u32) -> vec4<f32> {
+    let at = 48u * n + 16u * k + 4u * i;
+    return vec4<f32>(nets[at], nets[at + 1u], nets[at + 2u], nets[at + 3u]);
+}
+
+fn net_point(n: u32, l: u32) -> vec3<f32> {
+    let at = 48u * n + l;
+    return vec3<f32>(nets[at], nets[at + 16u], nets[at + 32u]);
 }
 
 // Differences of neighbouring control points.
@@ -48,9 +67,9 @@ fn steps(p: vec4<f32>) -> vec3<f32> {
     return vec3<f32>(sub(p.y, p.x), sub(p.z, p.y), sub(p.w, p.z));
 }
 
-// Control points of the curve v = constant, one coordinate.
-fn curve_point(k: u32, weights: vec4<f32>) -> vec4<f32> {
-    return blend_rows(weights, net_row(k, 0u), net_row(k, 1u), net_row(k, 2u), net_row(k, 3u));
+// Control points of the curve v = constant of a net, one coordinate.
+fn curve_point(n: u32, k: u32, weights: vec4<f32>) -> vec4<f32> {
+    return blend_rows(weights, net_row(n, k, 0u), net_row(n, k, 1u), net_row(n, k, 2u), net_row(n, k, 3u));
 }
 
 fn blend_rows(weights: vec4<f32>, a: vec4<f32>, b: vec4<f32>, c: vec4<f32>, d: vec4<f32>) -> vec4<f32> {
@@ -58,23 +77,21 @@ fn blend_rows(weights: vec4<f32>, a: vec4<f32>, b: vec4<f32>, c: vec4<f32>, d: v
 }
 
 // Derivatives across that curve at its control points, one coordinate.
-fn curve_across(k: u32, weights: vec3<f32>) -> vec4<f32> {
+fn curve_across(n: u32, k: u32, weights: vec3<f32>) -> vec4<f32> {
     return vec4<f32>(
-        blend3(weights, steps(net_row(k, 0u))),
-        blend3(weights, steps(net_row(k, 1u))),
-        blend3(weights, steps(net_row(k, 2u))),
-        blend3(weights, steps(net_row(k, 3u))),
+        blend3(weights, steps(net_row(n, k, 0u))),
+        blend3(weights, steps(net_row(n, k, 1u))),
+        blend3(weights, steps(net_row(n, k, 2u))),
+        blend3(weights, steps(net_row(n, k, 3u))),
     );
 }
 
-// What vertices share: the net, then the rows' curves and the columns' weights; and the border.
+// What vertices share: nets, then the rows' curves and the columns' weights; and the border.
 fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
-    IS_REGULAR = all(border_words(surface_of(draw)) == vec4<u32>(0u));
+    prepare_nets(draw.patch_id, lane);
+    // Of a displaced patch others own the border.
+    IS_REGULAR = all(border_words(surface_of(draw)) == vec4<u32>(0u)) && !IS_DISPLACED;
     let is_moved = lane < border_count(rates) && !IS_REGULAR;
-    if lane < 48u {
-        net[lane] = transformed(draw.patch_id, lane / 16u, lane % 16u);
-    }
-    prepare_faces(draw.patch_id, lane);
     if lane <= rates.x {
         prepare_column(draw, lane);
     }
@@ -89,18 +106,19 @@ fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
         prepare_row(lane);
     }
     if is_moved {
-        border[lane] = evaluate_moved(border_uv[lane]);
+        border[lane] = evaluate_moved(owner_of(draw.patch_id, border_uv[lane]));
     }
-    if lane == 59u {
-        flat_length = mul(size(), FLAT);
+    let n = GROUP - 1u - lane;
+    if n < net_count() {
+        flat_lengths[n] = mul(size(n), FLAT);
     }
 }
 
 // The curve in row `row`, or the weights of column `column`: one share of what the vertices need.
 fn prepare_row(task: u32) {
     let t = param(row_v[task / 3u]);
-    row_point[task] = curve_point(task % 3u, cubic(t));
-    row_across[task] = curve_across(task % 3u, cubic_slope(t));
+    row_point[task] = curve_point(0u, task % 3u, cubic(t));
+    row_across[task] = curve_across(0u, task % 3u, cubic_slope(t));
 }
 
 fn prepare_column(draw: Draw, column: u32) {
@@ -174,22 +192,22 @@ fn evaluate(row: u32, column: u32) -> Evaluated {
 }
 
 // A vertex with weights and an iso-curve of its own: the same bits as in a row.
-fn evaluate_moved(at: vec2<u32>) -> Evaluated {
-    let row = param(at.y);
+fn evaluate_moved(at: Owner) -> Evaluated {
+    let row = param(at.v);
     let weights = cubic(row);
     let row_slope = cubic_slope(row);
-    let cubic_u = cubic(param(at.x));
-    let slope = cubic_slope(param(at.x));
-    let x = curve_point(0u, weights);
-    let y = curve_point(1u, weights);
-    let z = curve_point(2u, weights);
+    let cubic_u = cubic(param(at.u));
+    let slope = cubic_slope(param(at.u));
+    let x = curve_point(at.n, 0u, weights);
+    let y = curve_point(at.n, 1u, weights);
+    let z = curve_point(at.n, 2u, weights);
     return Evaluated(
         vec3<f32>(blend4(cubic_u, x), blend4(cubic_u, y), blend4(cubic_u, z)),
         vec3<f32>(blend3(slope, steps(x)), blend3(slope, steps(y)), blend3(slope, steps(z))),
         vec3<f32>(
-            blend4(cubic_u, curve_across(0u, row_slope)),
-            blend4(cubic_u, curve_across(1u, row_slope)),
-            blend4(cubic_u, curve_across(2u, row_slope)),
+            blend4(cubic_u, curve_across(at.n, 0u, row_slope)),
+            blend4(cubic_u, curve_across(at.n, 1u, row_slope)),
+            blend4(cubic_u, curve_across(at.n, 2u, row_slope)),
         ),
     );
 }
@@ -203,26 +221,25 @@ fn evaluate_bezier(draw: Draw, row: u32, column: u32) -> Evaluated {
 }
 
 // The unit normal of a vertex, or one from nearby where it vanished.
-fn normal_at(draw: Draw, row: u32, column: u32, evaluated: Evaluated) -> vec3<f32> {
-    let normal = unit_normal(evaluated.du, evaluated.dv, flat_length);
+fn normal_of(evaluated: Evaluated, at: Owner) -> vec3<f32> {
+    let normal = unit_normal(evaluated.du, evaluated.dv, flat_lengths[at.n]);
     if largest3(normal) < 0.5 {
-        let place = vertex_of(draw, row, column);
-        return normal_nearby(place.x, place.y);
+        return normal_nearby(at);
     }
     return normal;
 }
 
-// Largest side of the box around the control points.
-fn size() -> f32 {
-    return max(max(side(0u), side(1u)), side(2u));
+// Largest side of the box around the control points of a net.
+fn size(n: u32) -> f32 {
+    return max(max(side(n, 0u), side(n, 1u)), side(n, 2u));
 }
 
 // Core's tree over the sixteen numbers, a row of four at once.
-fn side(k: u32) -> f32 {
-    let a = net_row(k, 0u);
-    let b = net_row(k, 1u);
-    let c = net_row(k, 2u);
-    let d = net_row(k, 3u);
+fn side(n: u32, k: u32) -> f32 {
+    let a = net_row(n, k, 0u);
+    let b = net_row(n, k, 1u);
+    let c = net_row(n, k, 2u);
+    let d = net_row(n, k, 3u);
     let high = max4(max4(a, c), max4(b, d));
     let low = min4(min4(a, c), min4(b, d));
     return sub(
@@ -254,21 +271,21 @@ fn inward(t: u32) -> u32 {
 }
 
 // The normal a little towards the patch's middle, or that of the patch's diagonals, or towards the eye.
-fn normal_nearby(u: u32, v: u32) -> vec3<f32> {
-    let inside = evaluate_moved(vec2<u32>(inward(u), inward(v)));
-    let nearby = unit_normal(inside.du, inside.dv, flat_length);
+fn normal_nearby(at: Owner) -> vec3<f32> {
+    let inside = evaluate_moved(Owner(at.n, inward(at.u), inward(at.v)));
+    let nearby = unit_normal(inside.du, inside.dv, flat_lengths[at.n]);
     if largest3(nearby) > 0.5 {
         return nearby;
     }
-    let diagonal = unit_normal(chord(0u, 15u), chord(12u, 3u), 0.0);
+    let diagonal = unit_normal(chord(at.n, 0u, 15u), chord(at.n, 12u, 3u), 0.0);
     if largest3(diagonal) > 0.5 {
         return diagonal;
     }
     return vec3<f32>(0.0, 0.0, 1.0);
 }
 
-fn chord(a: u32, b: u32) -> vec3<f32> {
-    let to = net_point(b);
-    let from_a = net_point(a);
+fn chord(n: u32, a: u32, b: u32) -> vec3<f32> {
+    let to = net_point(n, b);
+    let from_a = net_point(n, a);
     return vec3<f32>(sub(to.x, from_a.x), sub(to.y, from_a.y), sub(to.z, from_a.z));
 }

@@ -1,32 +1,47 @@
 // Mirrors core/src/kernel/dice_gregory.rs: as `dice.wgsl`, with other inner control points at each vertex.
 
-// The record of the patch's face points; 0 if it is a Bezier patch.
-var<workgroup> record: u32;
-// Face points: coordinate k of point l at 8 k + l.
-var<workgroup> faces: array<f32, 24>;
+// The record of the face points of each net's patch; 0 if it is a Bezier patch.
+var<workgroup> records: array<u32, NETS>;
+// Face points: coordinate k of point l of the patch of net n at 24 n + 8 k + l.
+var<workgroup> faces: array<f32, 24u * NETS>;
 
-fn prepare_faces(patch_id: u32, lane: u32) {
-    let found = faces_of(patch_id);
+// Control points and face points of net n, which is that of a patch.
+fn prepare_net(n: u32, patch_id: u32, lane: u32) {
+    let record = faces_of(patch_id);
     if lane == 0u {
-        record = found;
+        records[n] = record;
+    }
+    if lane < 48u {
+        nets[48u * n + lane] = source(patch_id, lane / 16u, lane % 16u);
     }
     if lane < 24u {
-        faces[lane] = transformed(found, lane / 8u, lane % 8u);
+        faces[24u * n + lane] = source(record, lane / 8u, lane % 8u);
     }
 }
 
-fn evaluate_any(draw: Draw, row: u32, column: u32) -> Evaluated {
-    if record == 0u {
+// Position and unit normal of a vertex of any patch.
+fn dice_any(draw: Draw, object: u32, row: u32, column: u32) -> Diced {
+    let owner = owner_of(draw.patch_id, vertex_of(draw, row, column));
+    let evaluated = evaluate_any(draw, row, column, owner);
+    let diced = Diced(evaluated.point, normal_of(evaluated, owner));
+    if IS_DISPLACED {
+        return displaced(object, diced);
+    }
+    return diced;
+}
+
+// On a Bezier patch `prepare` has done most of it, on the border all.
+fn evaluate_any(draw: Draw, row: u32, column: u32, owner: Owner) -> Evaluated {
+    if records[owner.n] == 0u {
         return evaluate_bezier(draw, row, column);
     }
-    let at = vertex_of(draw, row, column);
-    return evaluate_gregory(at.x, at.y);
+    return evaluate_gregory(owner);
 }
 
 // A point of a patch and its derivatives; the derivatives are the true ones, those of the blends included.
-fn evaluate_gregory(at_u: u32, at_v: u32) -> Evaluated {
-    let u = param(at_u);
-    let v = param(at_v);
+fn evaluate_gregory(at: Owner) -> Evaluated {
+    let u = param(at.u);
+    let v = param(at.v);
     let a = blend_here(0u, u, v);
     let b = blend_here(1u, u, v);
     let c = blend_here(2u, u, v);
@@ -34,41 +49,42 @@ fn evaluate_gregory(at_u: u32, at_v: u32) -> Evaluated {
     let shares = vec4<f32>(a.share, b.share, c.share, d.share);
     let along_u = vec4<f32>(a.along_u, b.along_u, c.along_u, d.along_u);
     let along_v = vec4<f32>(a.along_v, b.along_v, c.along_v, d.along_v);
-    let x = gregory_coordinate(0u, u, v, shares, along_u, along_v);
-    let y = gregory_coordinate(1u, u, v, shares, along_u, along_v);
-    let z = gregory_coordinate(2u, u, v, shares, along_u, along_v);
+    let x = gregory_coordinate(at.n, 0u, u, v, shares, along_u, along_v);
+    let y = gregory_coordinate(at.n, 1u, u, v, shares, along_u, along_v);
+    let z = gregory_coordinate(at.n, 2u, u, v, shares, along_u, along_v);
     return Evaluated(vec3<f32>(x.x, y.x, z.x), vec3<f32>(x.y, y.y, z.y), vec3<f32>(x.z, y.z, z.z));
 }
 
 // Inner point `m`, one coordinate: its point for the border of constant v, and what the other differs by.
-fn face_pair(k: u32, m: u32) -> vec2<f32> {
-    let of_v = faces[8u * k + 4u + m];
-    return vec2<f32>(of_v, sub(faces[8u * k + m], of_v));
+fn face_pair(n: u32, k: u32, m: u32) -> vec2<f32> {
+    let at = 24u * n + 8u * k + m;
+    let of_v = faces[at + 4u];
+    return vec2<f32>(of_v, sub(faces[at], of_v));
 }
 
 // Row 1 or 2 of the net that the patch has at these shares of its inner points, one coordinate.
-fn row_at(k: u32, i: u32, low: f32, high: f32) -> vec4<f32> {
-    let outer = net_row(k, i);
-    let a = face_pair(k, 2u * i - 2u);
-    let b = face_pair(k, 2u * i - 1u);
+fn row_at(n: u32, k: u32, i: u32, low: f32, high: f32) -> vec4<f32> {
+    let outer = net_row(n, k, i);
+    let a = face_pair(n, k, 2u * i - 2u);
+    let b = face_pair(n, k, 2u * i - 1u);
     return vec4<f32>(outer.x, add(a.x, mul(a.y, low)), add(b.x, mul(b.y, high)), outer.w);
 }
 
 fn gregory_coordinate(
-    k: u32, u: f32, v: f32, shares: vec4<f32>, along_u: vec4<f32>, along_v: vec4<f32>,
+    n: u32, k: u32, u: f32, v: f32, shares: vec4<f32>, along_u: vec4<f32>, along_v: vec4<f32>,
 ) -> vec3<f32> {
     let cubic_u = cubic(u);
     let cubic_v = cubic(v);
     let slope_u = cubic_slope(u);
     let slope_v = cubic_slope(v);
-    let a = face_pair(k, 0u);
-    let b = face_pair(k, 1u);
-    let c = face_pair(k, 2u);
-    let d = face_pair(k, 3u);
-    let row0 = net_row(k, 0u);
-    let row1 = row_at(k, 1u, shares.x, shares.y);
-    let row2 = row_at(k, 2u, shares.z, shares.w);
-    let row3 = net_row(k, 3u);
+    let a = face_pair(n, k, 0u);
+    let b = face_pair(n, k, 1u);
+    let c = face_pair(n, k, 2u);
+    let d = face_pair(n, k, 3u);
+    let row0 = net_row(n, k, 0u);
+    let row1 = row_at(n, k, 1u, shares.x, shares.y);
+    let row2 = row_at(n, k, 2u, shares.z, shares.w);
+    let row3 = net_row(n, k, 3u);
     let moved = vec4<f32>(
         mul(a.y, mul(cubic_u.y, cubic_v.y)),
         mul(b.y, mul(cubic_u.y, cubic_v.z)),

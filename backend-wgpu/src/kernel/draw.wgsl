@@ -50,17 +50,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
 
 // One vertex of the grid at word `base`: snapped position, position, colour.
 fn dice(draw: Draw, object: u32, row: u32, column: u32, base: u32) {
-    let evaluated = evaluate_any(draw, row, column);
-    let vertex = project(evaluated.point);
+    let diced = dice_any(draw, object, row, column);
+    let vertex = project(diced.point);
     let at = vertex_number(row, column);
     grid_x[at] = vertex.x;
     grid_y[at] = vertex.y;
     grid_w[at] = vertex.w;
     measure(vertex);
     put_screen(base, at, vertex);
-    put_space(base, at, 0u, evaluated.point);
-    let colour = shade(object, evaluated.point, normal_at(draw, row, column, evaluated));
-    put_space(base, at, 3u, colour);
+    put_space(base, at, 0u, diced.point);
+    put_space(base, at, 3u, shade(object, diced.point, diced.normal));
 }
 
 fn put_screen(base: u32, at: u32, vertex: Vertex) {
@@ -121,17 +120,17 @@ fn put_kind(base: u32) {
     }
 }
 
-fn diced(row: u32, column: u32) -> Vertex {
+fn on_screen(row: u32, column: u32) -> Vertex {
     let at = vertex_number(row, column);
     return Vertex(grid_x[at], grid_y[at], grid_w[at]);
 }
 
 // May the micropolygon be seen from the front? See `faces_away` in core.
 fn may_face_eye(row: u32, column: u32) -> bool {
-    let a = diced(row, column);
-    let b = diced(row, column + 1u);
-    let c = diced(row + 1u, column + 1u);
-    let d = diced(row + 1u, column);
+    let a = on_screen(row, column);
+    let b = on_screen(row, column + 1u);
+    let c = on_screen(row + 1u, column + 1u);
+    let d = on_screen(row + 1u, column);
     let whole = a.w > 0.0 && b.w > 0.0 && c.w > 0.0 && d.w > 0.0;
     return !(whole && signed_area(a, b, c) >= 0 && signed_area(a, c, d) >= 0);
 }

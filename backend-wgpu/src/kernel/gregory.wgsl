@@ -18,10 +18,10 @@ fn inner(m: u32) -> u32 {
 }
 
 fn faces_in_eye_space(record: u32) -> Faces {
+    let object = object_of(record);
     var faces: Faces;
     for (var l = 0u; l < 8u; l++) {
-        faces.points[l] =
-            vec3<f32>(transformed(record, 0u, l), transformed(record, 1u, l), transformed(record, 2u, l));
+        faces.points[l] = point_to_eye(object, control_point(record, l));
     }
     return faces;
 }

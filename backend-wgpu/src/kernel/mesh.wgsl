@@ -1,13 +1,14 @@
 // Mirrors core/src/kernel/mesh.rs (mesh): drawn surfaces become vertices and triangles, one group a draw.
 
 @group(0) @binding(0) var<storage, read> frame: Frame;
-@group(0) @binding(1) var<storage, read> patches: array<Patch>;
+@group(0) @binding(1) var<storage, read> objects: array<Object>;
+@group(0) @binding(2) var<storage, read> patches: array<Patch>;
 // As many as are to be meshed: its binding ends there.
-@group(0) @binding(2) var<storage, read> draws: array<Draw>;
-@group(0) @binding(3) var<storage, read> places: array<MeshPlace>;
-@group(0) @binding(4) var<storage, read_write> vertices: array<MeshVertex>;
-@group(0) @binding(5) var<storage, read_write> indices: array<u32>;
-@group(0) @binding(6) var<storage, read> patches_more: array<Patch>;
+@group(0) @binding(3) var<storage, read> draws: array<Draw>;
+@group(0) @binding(4) var<storage, read> places: array<MeshPlace>;
+@group(0) @binding(5) var<storage, read_write> vertices: array<MeshVertex>;
+@group(0) @binding(6) var<storage, read_write> indices: array<u32>;
+@group(0) @binding(7) var<storage, read> patches_more: array<Patch>;
 
 // Positions of the grid's vertices, row after row.
 var<workgroup> positions: array<vec3<f32>, GRID>;
@@ -21,12 +22,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let draw = draws[index];
     let base = places[index];
+    let object = object_of(draw.patch_id);
     let rates = draw_rates(draw);
     let stride = rates.x + 1u;
     prepare(draw, rates, lane);
     workgroupBarrier();
     for (var at = lane; at < stride * (rates.y + 1u); at += GROUP) {
-        vertices[base.vertex + at] = vertex_at(draw, at, at / stride, at % stride);
+        vertices[base.vertex + at] = vertex_at(draw, object, at, at / stride, at % stride);
     }
     workgroupBarrier();
     for (var quad = lane; quad < rates.x * rates.y; quad += GROUP) {
@@ -37,11 +39,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
 }
 
-fn vertex_at(draw: Draw, at: u32, row: u32, column: u32) -> MeshVertex {
-    let evaluated = evaluate_any(draw, row, column);
-    let point = evaluated.point;
+fn vertex_at(draw: Draw, object: u32, at: u32, row: u32, column: u32) -> MeshVertex {
+    let diced = dice_any(draw, object, row, column);
+    let point = diced.point;
+    let normal = diced.normal;
     positions[at] = point;
-    let normal = normal_at(draw, row, column, evaluated);
     let uv = vertex_of(draw, row, column);
     return MeshVertex(
         array<f32, 3>(point.x, point.y, point.z),

@@ -24,6 +24,15 @@ fn faces_of(patch_id: u32) -> u32 {
     return patches_more[patch_id - here].faces;
 }
 
+// The owner of a side or corner: see core/src/patch/owner.rs.
+fn owner_word(patch_id: u32, word: u32) -> u32 {
+    let here = arrayLength(&patches);
+    if patch_id < here {
+        return patches[patch_id].owners[word];
+    }
+    return patches_more[patch_id - here].owners[word];
+}
+
 fn control_point(patch_id: u32, l: u32) -> vec3<f32> {
     let here = arrayLength(&patches);
     if patch_id < here {
@@ -38,12 +47,32 @@ fn row_of_matrix(row: vec4<f32>, p: vec3<f32>) -> f32 {
     return add(add(add(mul(row.x, p.x), mul(row.y, p.y)), mul(row.z, p.z)), row.w);
 }
 
+// One coordinate (0, 1, 2) of a point of an object's space, moved to eye space.
+fn coordinate_to_eye(object: u32, k: u32, point: vec3<f32>) -> f32 {
+    return row_of_matrix(row_to_eye(object, k), point);
+}
+
+fn point_to_eye(object: u32, point: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(
+        coordinate_to_eye(object, 0u, point),
+        coordinate_to_eye(object, 1u, point),
+        coordinate_to_eye(object, 2u, point),
+    );
+}
+
+// One eye-space coordinate of control point `l`.
+fn transformed(patch_id: u32, k: u32, l: u32) -> f32 {
+    return coordinate_to_eye(object_of(patch_id), k, control_point(patch_id, l));
+}
+
 fn in_eye_space(patch_id: u32) -> Net {
+    let object = object_of(patch_id);
     var net: Net;
     for (var l = 0u; l < 16u; l++) {
-        net.x[l] = transformed(patch_id, 0u, l);
-        net.y[l] = transformed(patch_id, 1u, l);
-        net.z[l] = transformed(patch_id, 2u, l);
+        let point = point_to_eye(object, control_point(patch_id, l));
+        net.x[l] = point.x;
+        net.y[l] = point.y;
+        net.z[l] = point.z;
     }
     return net;
 }

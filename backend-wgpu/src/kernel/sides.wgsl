@@ -93,12 +93,10 @@ fn strays_of(surface: Surface, hull: Hull) -> Strays {
     var strays = Strays(nowhere, nowhere, nowhere, left != 0u);
     while left != 0u {
         let at = corner_at(surface, firstTrailingBit(left));
-        let point = position_any(hull, at.x, at.y);
-        let seen = point_on_screen(point);
-        let distance = neg(point.z);
-        strays.x = joined(strays.x, Reach(seen.x, seen.x));
-        strays.y = joined(strays.y, Reach(seen.y, seen.y));
-        strays.distances = joined(strays.distances, Reach(distance, distance));
+        let own = stray_at(position_any(hull, at.x, at.y));
+        strays.x = joined(strays.x, own.x);
+        strays.y = joined(strays.y, own.y);
+        strays.distances = joined(strays.distances, own.distances);
         left &= left - 1u;
     }
     return strays;
