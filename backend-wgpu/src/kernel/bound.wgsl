@@ -6,6 +6,7 @@ struct Hull {
     whole: Net,
     part: Net,
     slack: f32,
+    apart: f32,
     spread: f32,
 }
 
@@ -17,11 +18,16 @@ struct Seen {
 }
 
 fn hull_of_bezier(whole: Net, surface: Surface) -> Hull {
-    return Hull(whole, restricted(whole, surface), mul(extent(whole), ROUNDING), 0.0);
+    return Hull(whole, restricted(whole, surface), mul(extent(whole), ROUNDING), 0.0, 0.0);
 }
 
 fn nearest_of(hull: Hull) -> f32 {
     return sub(neg(fold_max(hull.part.z)), hull.spread);
+}
+
+// Before the surface is displaced.
+fn nearest_smooth(hull: Hull) -> f32 {
+    return sub(neg(fold_max(hull.part.z)), hull.apart);
 }
 
 fn farthest_of(hull: Hull) -> f32 {
@@ -66,7 +72,9 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
     let farthest = farthest_of(hull);
     let strays = strays_of(surface, hull);
     let crosses = nearest < frame.near && add(farthest, hull.slack) >= frame.near;
-    if !is_whole() && is_out_of_view(hull, max(farthest, strays.distances.high), crosses && !strays.exist) {
+    // Boxes of what is displaced are wide where it is near.
+    let is_vague = (crosses || is_displaced()) && !strays.exist;
+    if !is_whole() && is_out_of_view(hull, max(farthest, strays.distances.high), is_vague) {
         return culled();
     }
     let points = measured(hull.part);
@@ -74,7 +82,9 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
     var extents = vec2<f32>(lengths.u, lengths.v);
     var pixels = whole_image();
     if crosses && !is_whole() {
-        extents = extents_if_cut(hull.part);
+        if nearest_smooth(hull) < measured_from() {
+            extents = extents_if_cut(hull.part);
+        }
         if !strays.exist {
             pixels = pixels_if_cut(hull, farthest);
         }
@@ -88,10 +98,10 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
     return divided_verdict(surface, lengths, verdict(by_extents(surface, extents), pixels));
 }
 
-// Is all of a hull, as far as `end` away, before the near plane, or, if it crosses it, beside the view?
-fn is_out_of_view(hull: Hull, end: f32, crosses: bool) -> bool {
+// Is all of a hull, as far as `end` away, before the near plane, or, if its box is vague, beside the view?
+fn is_out_of_view(hull: Hull, end: f32, is_vague: bool) -> bool {
     return add(end, hull.slack) < frame.near
-        || (crosses && beside_the_view(hull.part, add(hull.slack, hull.spread)));
+        || (is_vague && beside_the_view(hull.part, add(hull.slack, hull.spread)));
 }
 
 // Left, right, top and bottom in pixels; right and bottom are one past the last.
@@ -182,7 +192,7 @@ fn beyond(depths: array<f32, 16>, coordinates: array<f32, 16>, half: f32, slack:
 // Lengths along u and along v of a surface that crosses the near plane: as if all of it were there, and turned to the
 // eye.
 fn extents_if_cut(part: Net) -> vec2<f32> {
-    let scale = mul(frame.focal, recip(frame.near));
+    let scale = mul(frame.focal, recip(measured_from()));
     var points = part;
     for (var l = 0u; l < 16u; l++) {
         points.x[l] = clamp(mul(points.x[l], scale), neg(FAR_OFF), FAR_OFF);
@@ -222,8 +232,8 @@ fn measured(part: Net) -> Net {
 }
 
 // Pixel offsets of one point from the optical axis.
-fn point_on_screen(point: vec3<f32>) -> vec2<f32> {
-    let seen = perspective(point);
+fn point_on_screen(near: f32, point: vec3<f32>) -> vec2<f32> {
+    let seen = perspective(near, point);
     return vec2<f32>(clamp(seen.x, neg(FAR_OFF), FAR_OFF), clamp(seen.y, neg(FAR_OFF), FAR_OFF));
 }
 

@@ -14,6 +14,15 @@ fn is_whole() -> bool {
     return (frame.flags & FLAG_WHOLE) != 0u;
 }
 
+fn is_displaced() -> bool {
+    return REACH > 0.0;
+}
+
+// What is nearer than this is measured as if it were this far away.
+fn measured_from() -> f32 {
+    return max(frame.near, REACH);
+}
+
 // Position of a vertex by itself.
 fn position_any(hull: Hull, u: u32, v: u32) -> vec3<f32> {
     if IS_GREGORY {
@@ -31,10 +40,10 @@ fn gregory_position(net: Net, u: u32, v: u32) -> vec3<f32> {
 // surrounds the eye.
 fn measured_point(point: vec3<f32>) -> vec3<f32> {
     if !is_whole() {
-        return vec3<f32>(point_on_screen(point), 0.0);
+        return vec3<f32>(point_on_screen(measured_from(), point), 0.0);
     }
     let before = max(neg(point.z), mul(largest3(point), frame.around));
-    return scale3(point, mul(frame.focal, recip(max(before, frame.near))));
+    return scale3(point, mul(frame.focal, recip(max(before, measured_from()))));
 }
 
 // Lengths on screen of a hull whose control points are measured to be at `points`.
@@ -99,7 +108,7 @@ fn largest_of(c: array<f32, 16>) -> f32 {
 
 // Mirrors core/src/kernel/sides.rs (Strays): where a corner is that has strayed, wherever it is displaced to.
 fn stray_at(point: vec3<f32>) -> Strays {
-    let seen = point_on_screen(point);
+    let seen = point_on_screen(frame.near, point);
     let distances = around(neg(point.z), REACH);
     let by = wobble(max(abs(seen.x), abs(seen.y)), REACH, max(distances.low, frame.near));
     return Strays(around(seen.x, by), around(seen.y, by), distances, true);
@@ -116,7 +125,7 @@ fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
     let centred = centre_inner(FACES, whole, surface, exchanged);
     let part = restricted(centred.net, surface);
     FOLLOWER = follow(FACES, part, surface, exchanged);
-    return Hull(centred.net, part, slack, centred.spread);
+    return Hull(centred.net, part, slack, centred.spread, centred.spread);
 }
 
 // The pixels that drawing the surface inside a hull can touch.
@@ -141,7 +150,7 @@ fn bound_any(surface: Surface) -> Verdict {
     } else {
         hull = hull_of_bezier(whole, surface);
     }
-    hull.spread = add(hull.spread, REACH);
+    hull.spread = add(hull.apart, REACH);
     if (frame.flags & FLAG_WEBER) == 0u {
         return judge(surface, hull);
     }

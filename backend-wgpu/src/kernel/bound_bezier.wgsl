@@ -9,13 +9,21 @@ fn is_whole() -> bool {
     return false;
 }
 
+fn is_displaced() -> bool {
+    return false;
+}
+
+fn measured_from() -> f32 {
+    return frame.near;
+}
+
 // Position of a vertex by itself.
 fn position_any(hull: Hull, u: u32, v: u32) -> vec3<f32> {
     return position_at(hull.whole, u, v);
 }
 
 fn measured_point(point: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(point_on_screen(point), 0.0);
+    return vec3<f32>(point_on_screen(frame.near, point), 0.0);
 }
 
 // Lengths on screen of a hull whose control points are measured to be at `points`.
@@ -25,7 +33,7 @@ fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
 
 // Where a corner is that has strayed.
 fn stray_at(point: vec3<f32>) -> Strays {
-    let seen = point_on_screen(point);
+    let seen = point_on_screen(frame.near, point);
     let distance = neg(point.z);
     return Strays(Reach(seen.x, seen.x), Reach(seen.y, seen.y), Reach(distance, distance), true);
 }

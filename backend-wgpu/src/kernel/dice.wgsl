@@ -263,7 +263,7 @@ fn unit_normal(du: vec3<f32>, dv: vec3<f32>, flat_below: f32) -> vec3<f32> {
     let square = dot3(normal, normal);
     let sound = long_u > flat_below && long_v > flat_below && square > PARALLEL;
     let scale = select(0.0, rsqrt(max(square, PARALLEL)), sound);
-    return scale3(normal, scale);
+    return flush3(scale3(normal, scale));
 }
 
 fn inward(t: u32) -> u32 {

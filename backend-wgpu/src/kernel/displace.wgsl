@@ -34,8 +34,8 @@ fn bump_at(object: u32, point: vec3<f32>) -> Bump {
     var out = Bump(0.0, vec3<f32>(0.0, 0.0, 0.0));
     for (var octave = 0u; octave < objects[object].octaves; octave++) {
         let wave = noise(scale3(point, frequency), octave);
-        out.value = add(out.value, mul(height, wave.value));
-        out.slope = add3(out.slope, scale3(wave.slope, mul(height, frequency)));
+        out.value = add(out.value, flush(mul(height, wave.value)));
+        out.slope = add3(out.slope, flush3(scale3(wave.slope, mul(height, frequency))));
         height = mul(0.5, height);
         frequency = mul(2.0, frequency);
     }
@@ -68,9 +68,10 @@ struct InCell {
 }
 
 fn place_in_cell(coordinate: f32) -> InCell {
-    let c = clamp(coordinate, neg(LATTICE_END), LATTICE_END);
+    let c = clamp(flush(coordinate), neg(LATTICE_END), LATTICE_END);
     let cell = floor(c);
-    let faded = fade(sub(c, float(cell)));
+    let within = sub(c, float(cell));
+    let faded = fade(select(within, 0.0, within < LATTICE_NEAR));
     return InCell(cell, faded.x, faded.y);
 }
 
@@ -133,7 +134,7 @@ fn normal_to_eye(object: u32, normal: vec3<f32>) -> vec3<f32> {
     let turned = scale3(moved, unit_scale(largest3(moved)));
     let unit_vector = scale3(turned, rsqrt(max(dot3(turned, turned), SHADE_TINY)));
     if largest3(unit_vector) > 0.5 {
-        return unit_vector;
+        return flush3(unit_vector);
     }
     return vec3<f32>(0.0, 0.0, 1.0);
 }

@@ -100,6 +100,10 @@ fn add3(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(add(a.x, b.x), add(a.y, b.y), add(a.z, b.z));
 }
 
+fn flush3(a: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(flush(a.x), flush(a.y), flush(a.z));
+}
+
 fn scale3(a: vec3<f32>, s: f32) -> vec3<f32> {
     return vec3<f32>(mul(a.x, s), mul(a.y, s), mul(a.z, s));
 }
