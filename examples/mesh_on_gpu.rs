@@ -11,6 +11,7 @@ use micropoly::core::abi::{Frame, MeshVertex, Object, Patch, Shared};
 use micropoly::core::render::FramePlan;
 use micropoly::core::tessellate::MeshBuffers;
 use micropoly::{DeviceScene, FrameOptions, Image, Scene};
+use pollster::block_on;
 
 /// Positions are in the space of their objects, so each vertex looks up its object.
 const SHADER: &str = "
@@ -48,15 +49,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let options = FrameOptions { size: 2.0, bound: 32.0, whole: true, ..FrameOptions::default() };
     let seen = Scene::load(scene)?.for_device(&options)?;
-    let mut device = WgpuDevice::open(0, None)?;
-    let mesh = tessellated(&mut device, &seen)?;
+    // The program's own device, as it has one for its window.
+    let adapter = block_on(wgpu::Instance::default().request_adapter(&Default::default()))?;
+    let (device, queue) = block_on(adapter.request_device(&Default::default()))?;
+    let mut micropoly = WgpuDevice::on(device.clone(), queue.clone())?;
+    let mesh = tessellated(&mut micropoly, &seen)?;
+    micropoly.submit();
     println!(
         "{} vertices and {} triangles on {}",
         mesh.totals.vertices,
         mesh.totals.triangles,
-        device.name()
+        micropoly.name()
     );
-    let image = drawn(&device, &seen, &mesh)?;
+    let image = drawn(&device, &queue, &seen, &mesh)?;
     image.save_png(output.as_ref())?;
     Ok(())
 }
@@ -75,11 +80,11 @@ fn tessellated(
 }
 
 fn drawn(
-    micropoly: &WgpuDevice,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
     seen: &DeviceScene,
     mesh: &MeshBuffers<WgpuBuffer>,
 ) -> Result<Image, Box<dyn Error>> {
-    let (device, queue) = (micropoly.device(), micropoly.queue());
     let Frame { width, height, .. } = seen.frame;
     let pipeline = pipeline(device);
     let bindings = bindings(device, queue, &pipeline, seen);

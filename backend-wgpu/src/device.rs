@@ -14,6 +14,9 @@ use crate::error::WgpuError;
 use crate::info::{adapters, describe, instance};
 use crate::kernels::{self, Edit, Kernel, Kind, Slot, Which};
 
+/// Storage buffers that a kernel binds at most, and bytes that a group of it shares: what WebGPU promises everywhere.
+const STORAGE_BUFFERS: u32 = 8;
+const GROUP_BYTES: u32 = 16384;
 /// Items that one group works on, in stages that have an item an invocation.
 const ITEMS_A_GROUP: u32 = 64;
 /// Most groups a dimension; more are spread over two.
@@ -54,11 +57,7 @@ impl WgpuDevice {
     /// # Errors
     /// When there is no such device, it refuses, a kernel does not compile, or an operation is not exact.
     pub fn open(index: usize, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
-        let mut device = Self::open_unchecked(index, edit)?;
-        match known::check(&mut device)? {
-            None => Ok(device),
-            Some(mismatch) => Err(WgpuError::Inexact { device: device.name, mismatch }),
-        }
+        Self::open_unchecked(index, edit)?.if_exact()
     }
 
     /// The same for tests, without a check of its arithmetic.
@@ -68,15 +67,51 @@ impl WgpuDevice {
     pub fn open_unchecked(index: usize, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
         let adapters = adapters(&instance());
         let adapter = adapters.get(index).ok_or(WgpuError::NoDevice { index, found: adapters.len() })?;
-        Self::with_kernels(adapter, edit)
-    }
-
-    fn with_kernels(adapter: &wgpu::Adapter, edit: Option<Edit<'_>>) -> Result<Self, WgpuError> {
-        let name = describe(adapter).name;
-        let software = adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let (device, queue) = request(adapter, &name)?;
+        let (device, queue) = request(adapter, &describe(adapter).name)?;
         let failure = Arc::default();
         listen(&device, &failure);
+        Self::with_kernels(device, queue, failure, edit)
+    }
+
+    /// Uses a device that the caller has opened, and goes on using, with any limits from WebGPU's defaults upward: so
+    /// that meshes lie where the caller can draw them ([`WgpuDevice::submit`] first). Errors that wgpu finds go to the
+    /// caller's own handlers.
+    ///
+    /// # Errors
+    /// When its limits are too small, a kernel does not compile, or an operation is not exact.
+    pub fn on(device: wgpu::Device, queue: wgpu::Queue) -> Result<Self, WgpuError> {
+        let (name, limits) = (device.adapter_info().name, device.limits());
+        for (limit, has, needed) in [
+            (
+                "max_storage_buffers_per_shader_stage",
+                limits.max_storage_buffers_per_shader_stage,
+                STORAGE_BUFFERS,
+            ),
+            ("max_compute_workgroup_storage_size", limits.max_compute_workgroup_storage_size, GROUP_BYTES),
+        ] {
+            if has < needed {
+                let reason = format!("its {limit} is {has}; request it with {needed} or more");
+                return Err(WgpuError::Refused { device: name, reason });
+            }
+        }
+        Self::with_kernels(device, queue, Arc::default(), None)?.if_exact()
+    }
+
+    fn if_exact(mut self) -> Result<Self, WgpuError> {
+        match known::check(&mut self)? {
+            None => Ok(self),
+            Some(mismatch) => Err(WgpuError::Inexact { device: self.name, mismatch }),
+        }
+    }
+
+    fn with_kernels(
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        failure: Arc<Mutex<Option<String>>>,
+        edit: Option<Edit<'_>>,
+    ) -> Result<Self, WgpuError> {
+        let info = device.adapter_info();
+        let (name, software) = (info.name, info.device_type == wgpu::DeviceType::Cpu);
         let kernels: Result<Vec<Slot>, WgpuError> =
             Which::ALL.into_iter().map(|which| kernels::prepared(&device, which, edit)).collect();
         let allocated = Arc::default();
@@ -360,13 +395,12 @@ fn failed(error: impl ToString) -> WgpuError {
 
 /// Opens an adapter with the limits that every WebGPU device has, but with its own largest buffers.
 fn request(adapter: &wgpu::Adapter, name: &str) -> Result<(wgpu::Device, wgpu::Queue), WgpuError> {
-    let defaults = wgpu::Limits::defaults();
     let own = adapter.limits();
     let required_limits = wgpu::Limits {
         max_storage_buffer_binding_size: own.max_storage_buffer_binding_size,
         max_buffer_size: own.max_buffer_size,
-        max_storage_buffers_per_shader_stage: defaults.max_storage_buffers_per_shader_stage,
-        max_compute_workgroup_storage_size: defaults.max_compute_workgroup_storage_size,
+        max_storage_buffers_per_shader_stage: STORAGE_BUFFERS,
+        max_compute_workgroup_storage_size: GROUP_BYTES,
         ..wgpu::Limits::downlevel_defaults()
     };
     let wanted = wgpu::DeviceDescriptor { required_limits, ..Default::default() };

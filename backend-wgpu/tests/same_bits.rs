@@ -2,7 +2,7 @@
 
 use micropoly::{Borders, FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
-use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices};
+use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices, wgpu};
 use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::abi::{
     Control, DRAW, Draw, Frame, Group, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Shared,
@@ -400,4 +400,23 @@ fn a_kernel_that_does_not_compile_is_an_error() {
     };
     let error = WgpuDevice::open(0, Some(&broken)).expect_err("refused");
     assert!(matches!(error, WgpuError::Kernel { stage: "scan", .. }), "{error}");
+}
+
+/// A device that a program has opened for itself, with these limits.
+fn callers(required_limits: wgpu::Limits) -> (wgpu::Device, wgpu::Queue) {
+    let adapter = pollster::block_on(wgpu::Instance::default().request_adapter(&Default::default()));
+    let wanted = wgpu::DeviceDescriptor { required_limits, ..Default::default() };
+    pollster::block_on(adapter.expect("an adapter").request_device(&wanted)).expect("opens")
+}
+
+#[test]
+fn a_device_of_the_callers_gives_the_same_bits_unless_its_limits_are_too_small() {
+    let (device, queue) = callers(wgpu::Limits::defaults());
+    let mut device = WgpuDevice::on(device, queue).expect("WebGPU's defaults will do");
+    for case in [case("teapot", small()), displaced("gregory", small())] {
+        assert_eq!(run(&mut device, &case, 4096).expect("renders"), on_cpu(&case), "{}", case.name);
+    }
+    let (device, queue) = callers(wgpu::Limits::downlevel_defaults());
+    let error = WgpuDevice::on(device, queue).expect_err("four buffers are too few");
+    assert!(error.to_string().contains("max_storage_buffers_per_shader_stage is 4"), "{error}");
 }
