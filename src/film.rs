@@ -1,7 +1,5 @@
 //! Film: what a frame shows as linear values, and the files that can hold them.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
 use exr::prelude::{
@@ -9,12 +7,11 @@ use exr::prelude::{
     WritableImage, f16,
 };
 use glam::Vec3;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use image::ExtendedColorType;
 use micropoly_core::abi::{Colour, Sample};
 
 use crate::error::{Error, Result};
-use crate::image::srgb_from_linear;
+use crate::image::{srgb_from_linear, write_png};
 
 /// Linear values of a frame, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,11 +47,7 @@ impl Film {
         let level = |linear: f32| (srgb_from_linear(f64::from(linear)) * 65535.0).round() as u16;
         let levels = self.colours.iter().flat_map(|colour| self.shown(colour).map(level));
         let bytes: Vec<u8> = levels.flat_map(u16::to_ne_bytes).collect();
-        let failed = |why: String| Error::Write { path: path.to_owned(), why };
-        let file = BufWriter::new(File::create(path).map_err(|error| failed(error.to_string()))?);
-        PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Sub)
-            .write_image(&bytes, self.width, self.height, ExtendedColorType::Rgb16)
-            .map_err(|error| failed(error.to_string()))
+        write_png(path, &bytes, (self.width, self.height), ExtendedColorType::Rgb16)
     }
 
     /// The colour of a pixel, before the background.

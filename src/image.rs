@@ -38,12 +38,22 @@ impl Image {
     /// # Errors
     /// [`Error::Write`] names the file.
     pub fn save_png(&self, path: &Path) -> Result<()> {
-        let failed = |why: String| Error::Write { path: path.to_owned(), why };
-        let file = BufWriter::new(File::create(path).map_err(|error| failed(error.to_string()))?);
-        PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Sub)
-            .write_image(&self.rgb, self.width, self.height, ExtendedColorType::Rgb8)
-            .map_err(|error| failed(error.to_string()))
+        write_png(path, &self.rgb, (self.width, self.height), ExtendedColorType::Rgb8)
     }
+}
+
+/// Writes a PNG file.
+pub(crate) fn write_png(
+    path: &Path,
+    bytes: &[u8],
+    (width, height): (u32, u32),
+    kind: ExtendedColorType,
+) -> Result<()> {
+    let failed = |why: String| Error::Write { path: path.to_owned(), why };
+    let file = BufWriter::new(File::create(path).map_err(|error| failed(error.to_string()))?);
+    PngEncoder::new_with_quality(file, CompressionType::Fast, FilterType::Sub)
+        .write_image(bytes, width, height, kind)
+        .map_err(|error| failed(error.to_string()))
 }
 
 impl Image {

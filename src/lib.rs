@@ -49,7 +49,7 @@ pub use crate::film::{Film, Precision};
 pub use crate::gregory::GregoryPatch;
 pub use crate::image::Image;
 pub use crate::path::{CameraKey, CameraPath};
-pub use crate::picture::Picture;
+pub use crate::picture::{Picture, extension};
 pub use crate::render::{Batch, RenderOptions, Rendering, render_on, sizes_for};
 pub use crate::scene::{BezierPatch, DeviceScene, Scene, SceneObject};
 pub use crate::timed::Seconds;

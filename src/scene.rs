@@ -324,6 +324,7 @@ fn check_extent(placed: &Object, object: &SceneObject) -> Result<()> {
     };
     for point in object.points() {
         for furthest in [reach(0, point), reach(4, point), reach(8, point)] {
+            let furthest = furthest + f64::from(placed.reach);
             if furthest.is_nan() || furthest > f64::from(MAX_COORDINATE) {
                 let problem = format!("an object reaches {furthest:e} units from the eye; 1e12 is the limit");
                 return Err(Error::scene(problem, "scale the scene down, or remove the outlying points"));

@@ -158,6 +158,13 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (bumps("height = 1000, frequency = 1e5"), "steeper"),
         (bumps("height = 1, frequency = 1e5, octaves = 8"), "a smaller frequency or fewer octaves"),
         (bumps("height = 1"), "missing field `frequency`"),
+        (
+            scene(
+                CAMERA,
+                "generate = { kind = \"spheres\", count = 1 }\nscale = 1e6\ndisplacement = { height = 1e9, frequency = 1e-9 }",
+            ),
+            "1e12 is the limit",
+        ),
         (scene(CAMERA, "generate = { kind = \"hair\", count = 0 }"), "makes no patches"),
         (scene(CAMERA, "generate = { kind = \"hair\", count = 4000000000 }"), "more than"),
         (

@@ -100,14 +100,19 @@ fn every_backend_batch_and_scheduler_gives_the_same_mesh() {
                 assert!(mesh == expected, "{name}: another mesh on {backend:?} by {}", scheduler.name());
             }
         }
-        let options = RenderOptions { frame, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
-        let refusal = Mesh::of(&scene, &options).expect_err("no bound");
-        let batch = Batch::Surfaces(1 << 23);
-        let many = RenderOptions { frame, batch, backend: Backend::Cpu, ..RenderOptions::default() };
-        let too_many = Mesh::of(&scene, &many).expect_err("too many vertices to count");
-        assert!(too_many.to_string().contains("batch"), "{too_many}");
-        assert!(refusal.to_string().contains("breadth"), "{refusal}");
     }
+}
+
+#[test]
+fn meshes_without_a_bound_or_too_large_to_count_are_refused() {
+    let scene = Scene::load("scenes/teapot.toml").expect("a scene");
+    let backend = Backend::Cpu;
+    let breadth = RenderOptions { backend, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
+    let refusal = Mesh::of(&scene, &breadth).expect_err("no bound");
+    assert!(refusal.to_string().contains("breadth"), "{refusal}");
+    let many = RenderOptions { backend, batch: Batch::Surfaces(1 << 23), ..RenderOptions::default() };
+    let too_many = Mesh::of(&scene, &many).expect_err("too many vertices to count");
+    assert!(too_many.to_string().contains("batch"), "{too_many}");
 }
 
 fn assert_closed(mut scene: Scene, options: &FrameOptions) {

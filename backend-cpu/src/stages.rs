@@ -8,7 +8,7 @@ use micropoly_core::abi::{
 };
 use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
 use micropoly_core::kernel::dice::Grid;
-use micropoly_core::kernel::dice_gregory::dice_any;
+use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::known_answers::answer as known_answer;
 use micropoly_core::kernel::mesh::{self, QUAD_INDICES};
 use micropoly_core::kernel::sample::{Band, sample};

@@ -12,6 +12,8 @@ pub(crate) const DRAWS: u64 = 2048;
 const TILE: u32 = 16;
 /// Words before the first grid; as `GRIDS` there.
 const GRIDS: u64 = 8 + 2 * DRAWS / 64;
+/// Words of a grid before its vertices; as `GRID_HEAD` there.
+const GRID_HEAD: u64 = 3;
 /// Places in `rounds.wgsl`, in bytes: was a loop cut, chunks begun, is anything left, progress.
 pub(crate) const TRUNCATED: u64 = 8;
 pub(crate) const BEGUN: u64 = 12;
@@ -77,7 +79,7 @@ fn rounds_bytes((width, height): (u32, u32)) -> u64 {
 /// Size of the grids of a chunk; see `grids.wgsl`.
 fn grids_bytes(rate: u32) -> u64 {
     let vertices = (u64::from(rate) + 1).pow(2);
-    4 * (GRIDS + DRAWS * (1 + 9 * vertices))
+    4 * (GRIDS + DRAWS * (GRID_HEAD + 9 * vertices))
 }
 
 /// Puts a larger buffer in the place of one that is too small; says whether it did.

@@ -286,6 +286,7 @@ fn scene(random: &mut fastrand::Rng) -> (Frame, Vec<Object>, Vec<Patch>) {
     let is_displaced = random.u8(0..3) == 0;
     if is_displaced {
         patches.iter_mut().for_each(|patch| sink(random, patch));
+        patches.iter_mut().for_each(|patch| fold(random, patch));
         join(random, &mut patches);
     }
     if random.bool() {
@@ -314,6 +315,17 @@ fn sink(random: &mut fastrand::Rng, patch: &mut Patch) {
     if random.u8(0..8) == 0 {
         let tiny = [0.0, 1.0e-12, 1.0e-19, 1.0e-30][random.usize(0..4)];
         patch.z = patch.z.map(|z| z * tiny);
+    }
+}
+
+/// Lets a side of one patch in eight run back over its own points.
+fn fold(random: &mut fastrand::Rng, patch: &mut Patch) {
+    if random.u8(0..8) == 0 {
+        let [a, b, c, d] =
+            [[0, 4, 8, 12], [3, 7, 11, 15], [0, 1, 2, 3], [12, 13, 14, 15]][random.usize(0..4)];
+        for (from, to) in [(a, d), (b, c)] {
+            (patch.x[to], patch.y[to], patch.z[to]) = (patch.x[from], patch.y[from], patch.z[from]);
+        }
     }
 }
 

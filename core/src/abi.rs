@@ -101,14 +101,15 @@ shared_constants! {
 
     /// Where a word of [`Patch::owners`] has one more than the owner's number, above its side or corner.
     const OWNER_SHIFT: u32 = 4;
-    /// Bit of a word of [`Patch::owners`]: the owner is a corner, bits 1 and 2; else it is a side.
+    /// Bit of a word of [`Patch::owners`]: the owner is a corner, bits 1 and 2; else it is a side. With
+    /// [`OWNER_IS_REVERSED`] it is a side that is folded: it runs back over its own points from the middle on.
     const OWNER_IS_CORNER: u32 = 8;
     /// Bit of a word of [`Patch::owners`]: the owner's side runs the other way.
     const OWNER_IS_REVERSED: u32 = 1;
 
     /// Most times that bumps are added, each twice as fine as the last.
     const MAX_OCTAVES: u32 = 8;
-    /// Bumps repeat farther than so many of them from the origin.
+    /// Bumps have no shape farther than so many of them from the origin.
     const LATTICE_END: f32 = (1 << 22) as f32;
     /// Of a bump's width: a point so near the side of its cell is taken to be there, so that no weight is so small that
     /// products of it reach the denormals.
@@ -304,7 +305,7 @@ shared_structs! {
         /// 0 for a Bézier patch; for a Gregory patch the index of the record that holds its face points, behind
         /// all patches. Its inner control points are then the means of two face points each.
         faces: u32,
-        /// A word a side, then a word a corner: the patch whose vertices they are, if it is another one, or else 0 (see
+        /// A word a side, then a word a corner: where their vertices are evaluated, 0 = where they are (see
         /// [`crate::patch::owner`]). Only displacement looks at it.
         owners: [u32; 8],
     }

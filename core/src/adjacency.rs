@@ -1,13 +1,11 @@
 //! Adjacency: which patches share edges and corners, found once on the host from the bits of their control points.
 //!
 //! Edges are the same if their four control points are, from either end; corners if they are in the same place. Patches
-//! of different objects never meet. Nothing is allocated: numbers are sorted in room that the caller gives.
-
-use core::cmp::Ordering;
+//! of different objects never meet. A side may be one point, or run back over its own points. Nothing is allocated: numbers are sorted in room that the caller gives.
 
 use crate::abi::Patch;
 use crate::patch::gregory::patch_count;
-use crate::patch::owner::{owned_by_corner, owned_by_side};
+use crate::patch::owner::{owned_by_corner, owned_by_fold, owned_by_side};
 
 /// A control point as bits, in which -0 is 0.
 type Bits = [u32; 3];
@@ -79,6 +77,8 @@ fn own_side(patches: &mut [Patch], owner: u32, at: u32) {
             0 => owned_by_corner(patch as u32, corner as u32),
             word => word,
         }
+    } else if curve == mirrored(curve) {
+        owned_by_fold(owner / 4, owner % 4)
     } else if owner == at {
         0
     } else {
@@ -90,20 +90,17 @@ fn own_side(patches: &mut [Patch], owner: u32, at: u32) {
 fn side_of(patches: &[Patch], at: u32) -> (u32, [Bits; 4]) {
     let patch = &patches[(at / 4) as usize];
     let curve = SIDE_POINTS[(at % 4) as usize].map(|l| bits(patch, l));
-    let [a, b, c, d] = curve;
-    (patch.object, curve.min([d, c, b, a]))
+    (patch.object, curve.min(mirrored(curve)))
 }
 
-/// Is it the other end of a side that is lower? Of a curve that is the same from both ends the one at which the patch's
-/// border, run through with the patch on its left, starts.
+const fn mirrored([a, b, c, d]: [Bits; 4]) -> [Bits; 4] {
+    [d, c, b, a]
+}
+
+/// Is it the other end of a side that is lower?
 fn runs_backwards(patches: &[Patch], at: u32) -> bool {
-    let side = (at % 4) as usize;
-    let [a, b, c, d] = SIDE_POINTS[side].map(|l| bits(&patches[(at / 4) as usize], l));
-    match [a, b, c, d].cmp(&[d, c, b, a]) {
-        Ordering::Less => false,
-        Ordering::Greater => true,
-        Ordering::Equal => side == 1 || side == 2,
-    }
+    let curve = SIDE_POINTS[(at % 4) as usize].map(|l| bits(&patches[(at / 4) as usize], l));
+    curve > mirrored(curve)
 }
 
 fn corner_of(patches: &[Patch], at: u32) -> (u32, Bits) {
@@ -178,6 +175,30 @@ mod tests {
             assert_eq!(patches[1].owner(1, 0, v), tip, "at {v}");
         }
         assert_eq!(patches[1].owner(1, 7, 9), Owner { patch_id: 1, u: 7, v: 9 });
+    }
+
+    #[test]
+    fn a_side_that_is_folded_has_each_vertex_twice() {
+        let mut patches = pair(|i, j| (j, 3 - i));
+        for patch in &mut patches {
+            for (from, to) in [(0, 3), (1, 2)] {
+                (patch.x[to], patch.y[to], patch.z[to]) = (patch.x[from], patch.y[from], patch.z[from]);
+            }
+        }
+        for l in 0..4 {
+            let k = 4 * l; // side 0 of the second patch is side 2 of the first
+            (patches[1].x[k], patches[1].y[k], patches[1].z[k]) =
+                (patches[0].x[l], patches[0].y[l], patches[0].z[l]);
+        }
+        let patches = found(patches);
+        let owner = |v| Owner { patch_id: 0, u: 0, v };
+        for v in [1, 1 << 20, PARAM_ONE / 2] {
+            assert_eq!(patches[0].owner(0, 0, v), owner(v));
+            assert_eq!(patches[0].owner(0, 0, PARAM_ONE - v), owner(v));
+            assert_eq!(patches[1].owner(1, v, 0), owner(v));
+            assert_eq!(patches[1].owner(1, PARAM_ONE - v, 0), owner(v));
+        }
+        assert_eq!(patches[1].owner(1, PARAM_ONE, 0), patches[0].owner(0, 0, 0));
     }
 
     #[test]

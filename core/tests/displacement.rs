@@ -9,7 +9,7 @@ use micropoly_core::camera::{Camera, FrameOptions, Material};
 use micropoly_core::displacement::{Displacement, Unfit};
 use micropoly_core::kernel::bound::bound_any;
 use micropoly_core::kernel::dice::Grid;
-use micropoly_core::kernel::dice_gregory::dice_any;
+use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::displace::{bump, noise};
 use micropoly_core::kernel::triangle::pixels_between;
 
@@ -117,6 +117,7 @@ fn nothing_visible_is_culled_and_boxes_contain_what_is_drawn() {
             if verdict.code == CULL { draw_at(surface, [MAX_RATE; 2]) } else { Draw::new(surface, verdict) };
         dice_any(&frame, &patches, &object, draw, &mut grid);
         let (columns, rows) = (verdict.columns, verdict.rows);
+        // What must be clipped is not looked at.
         for at in (0..grid.stride * grid.rows).filter(|at| grid.w[*at] > 0.0) {
             // Pixels whose samples the vertex touches, if they are in the image.
             let x = pixels_between(grid.x[at], grid.x[at]);

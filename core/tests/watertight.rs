@@ -12,7 +12,7 @@ use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::camera::Camera;
 use micropoly_core::displacement::Displacement;
 use micropoly_core::kernel::dice::Grid;
-use micropoly_core::kernel::dice_gregory::dice_any;
+use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::patch::gregory::patch_count;
 use micropoly_core::schedule::for_each_draw;
 

@@ -9,7 +9,7 @@ use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
 use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
-use micropoly::{Backend, Batch, Borders, FrameOptions, Profile, RenderOptions, Scheduler};
+use micropoly::{Backend, Batch, Borders, FrameOptions, Profile, RenderOptions, Scheduler, extension};
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -152,19 +152,19 @@ pub(crate) struct DiffArguments {
     pub(crate) second: PathBuf,
     /// A pixel fails if one of its values differs by more than this; values of PNG files run from 0 to 1.
     #[arg(long, value_name = "X", default_value = "0", value_parser = from_zero)]
-    fail: f32,
+    fail: f64,
     /// So many per cent of the pixels may fail.
     #[arg(long, value_name = "P", default_value = "0", value_parser = from_zero)]
-    fail_percent: f32,
-    /// No value of any pixel may differ by more than this.
+    fail_percent: f64,
+    /// No value of any pixel may differ by more than this, however few do.
     #[arg(long, value_name = "X", default_value = "inf", value_parser = from_zero)]
-    hard_fail: f32,
+    hard_fail: f64,
     /// Write a picture of the differences (.png): black where there is none, then blue, red, yellow, white.
     #[arg(long, value_name = "FILE", value_parser = png_path)]
     pub(crate) heat: Option<PathBuf>,
     /// The difference that is white in that picture.
     #[arg(long, value_name = "X", default_value = "0.1", value_parser = above_zero)]
-    pub(crate) white: f32,
+    pub(crate) white: f64,
     /// Write the result as JSON to this file instead; - writes to standard output.
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
@@ -173,15 +173,15 @@ pub(crate) struct DiffArguments {
 impl DiffArguments {
     pub(crate) fn thresholds(&self) -> Thresholds {
         let Self { fail, fail_percent, hard_fail, .. } = *self;
-        Thresholds { fail, fail_percent: f64::from(fail_percent), hard_fail }
+        Thresholds { fail, fail_percent, hard_fail }
     }
 }
 
-fn from_zero(text: &str) -> Result<f32, String> {
-    text.parse().ok().filter(|x: &f32| *x >= 0.0).ok_or_else(|| "give a number from 0".to_owned())
+fn from_zero(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| *x >= 0.0).ok_or_else(|| "give a number from 0".to_owned())
 }
 
-fn above_zero(text: &str) -> Result<f32, String> {
+fn above_zero(text: &str) -> Result<f64, String> {
     from_zero(text)
         .ok()
         .filter(|x| *x > 0.0 && x.is_finite())
@@ -492,8 +492,7 @@ impl From<BackendChoice> for Backend {
 
 fn png_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    let is_png = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-    if is_png {
+    if extension(&path) == "png" {
         Ok(path)
     } else {
         Err("only PNG images can be written: choose a name that ends in .png".into())
@@ -502,8 +501,8 @@ fn png_path(text: &str) -> Result<PathBuf, String> {
 
 fn image_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
-        Some("png" | "exr") => Ok(path),
+    match extension(&path).as_str() {
+        "png" | "exr" => Ok(path),
         _ => Err("only PNG and EXR images can be written: choose a name that ends in .png or .exr".into()),
     }
 }

@@ -1,7 +1,7 @@
 //! `micropoly bench --dicing`: lengths and number of micropolygons, and what watertight borders cost.
 
-use micropoly::Result;
 use micropoly::dicing::Dicing;
+use micropoly::{Backend, RenderOptions, Result};
 
 use super::args::BenchArguments;
 use super::bench::{scenes, short};
@@ -20,7 +20,8 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
     );
     let mut rows = Vec::new();
     for scene in scenes(&arguments.scenes, false)? {
-        let row = Dicing::measure(&scene, &arguments.frame.options(), arguments.repeat)?;
+        let options = RenderOptions { backend: Backend::Cpu, ..arguments.frame.options() };
+        let row = Dicing::measure(&scene, &options, arguments.repeat)?;
         say!("{}", line(&row));
         rows.push(row);
     }

@@ -1,6 +1,6 @@
 //! `micropoly diff`.
 
-use micropoly::diff::{Difference, Largest};
+use micropoly::diff::{ChannelDifference, Difference, Largest};
 use micropoly::{Picture, Result};
 
 use super::args::DiffArguments;
@@ -22,13 +22,18 @@ pub(crate) fn run(arguments: &DiffArguments) -> Result<bool> {
 }
 
 fn print(found: &Difference) {
-    let Difference { width, height, channels, mean, rms, largest, different, failing, .. } = found;
-    say!("pictures      {width}x{height}, channels {}", channels.join(", "));
-    say!("mean error    {mean:.9}");
-    let psnr = found.psnr.map_or(String::new(), |psnr| format!(", {psnr:.2} dB"));
-    say!("rms error     {rms:.9}{psnr}");
-    if let Some(Largest { x, y, channel, first, second, difference }) = largest {
-        say!("largest       {difference:.9} at column {x}, row {y}, channel {channel}: {first} and {second}");
+    let Difference { width, height, channels, different, failing, .. } = found;
+    say!("pictures      {width}x{height}");
+    for ChannelDifference { name, mean, rms, psnr, infinite, largest } in channels {
+        let Some(Largest { x, y, first, second, .. }) = largest else {
+            say!("{name:<14}no difference");
+            continue;
+        };
+        let psnr = psnr.map_or(String::new(), |psnr| format!(" ({psnr:.2} dB)"));
+        let infinite = if *infinite > 0 { format!(", {infinite} infinite") } else { String::new() };
+        say!(
+            "{name:<14}mean {mean:.9}, rms {rms:.9}{psnr}{infinite}; most at column {x}, row {y}: {first} and {second}"
+        );
     }
     say!("different     {different} pixels");
     say!("failing       {failing} pixels, {:.4} %", found.failing_percent());

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use micropoly::{Error, Film, Precision, Rendering, Result};
+use micropoly::{Error, Film, Precision, Rendering, Result, extension};
 
 /// What an image file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub(crate) enum Kind {
 impl Kind {
     /// By the end of its name, and the bits of a value.
     pub(crate) fn of(path: &Path, bits: Option<u32>) -> Result<Self> {
-        let is_exr = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"));
+        let is_exr = extension(path) == "exr";
         match (is_exr, bits) {
             (false, None | Some(8)) => Ok(Self::Png8),
             (false, Some(16)) => Ok(Self::Png16),

@@ -39,7 +39,7 @@ impl Progress {
             bar.set_message(message());
         } else if self.last_line.elapsed() >= PLAIN_INTERVAL {
             self.last_line = Instant::now();
-            eprintln!("{begun} of {} {} begun, {}", self.total, self.unit, message());
+            eprintln!("{begun} of {} {}: {}", self.total, self.unit, message());
         }
     }
 

@@ -53,22 +53,24 @@ fn render_path(
     frames: RangeInclusive<u32>,
 ) -> Result<()> {
     let start = Instant::now();
+    let first = *frames.start();
     let file = |frame| {
-        numbered(&arguments.output, frame).ok_or_else(|| {
+        let only = (frames.start() == frames.end()).then(|| arguments.output.clone());
+        numbered(&arguments.output, frame).or(only).ok_or_else(|| {
             let problem = format!("{}: all frames would be written to one file", arguments.output.display());
             Error::scene(problem, "put # into the file's name where the number is to be: out.####.png")
         })
     };
-    file(0)?;
-    let numbers: Vec<u32> = frames.collect();
+    file(first)?;
     let cameras: Vec<Camera> =
-        numbers.iter().map(|frame| scene.camera_at(f64::from(*frame))).collect::<Result<_>>()?;
+        frames.clone().map(|frame| scene.camera_at(f64::from(frame))).collect::<Result<_>>()?;
     let mut progress = Progress::new(arguments.progress, cameras.len() as u64, "frames");
     let mut done = 0;
     let notes = micropoly::render_frames(scene, options, &cameras, |number, rendering| {
-        kind.save(&rendering, &file(numbers[number])?)?;
+        let path = file(first + number as u32)?;
+        kind.save(&rendering, &path)?;
         done += 1;
-        progress.update(done, || rendering.image.hash());
+        progress.update(done, || path.display().to_string());
         if number == 0 {
             tell(&rendering.notes);
         }

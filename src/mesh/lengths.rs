@@ -3,7 +3,7 @@
 use micropoly_core::abi::Draw;
 use micropoly_core::camera::FrameOptions;
 use micropoly_core::kernel::dice::Grid;
-use micropoly_core::kernel::dice_gregory::dice_any;
+use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::patch::gregory::patch_count;
 use micropoly_core::schedule::for_each_draw;
 use serde::Serialize;

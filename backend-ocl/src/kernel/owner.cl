@@ -37,10 +37,12 @@ static uint word_for(uint2 at) {
 static uint2 place_on(uint word, uint along) {
     const uint number = (word >> 1) & 3u;
     const uint first = (number & 1u) * PARAM_ONE, second = (number >> 1) * PARAM_ONE;
-    if ((word & OWNER_IS_CORNER) != 0u) {
+    const bool is_corner = (word & OWNER_IS_CORNER) != 0u, is_reversed = (word & OWNER_IS_REVERSED) != 0u;
+    if (is_corner && !is_reversed) {
         return (uint2)(first, second);
     }
-    const uint there = (word & OWNER_IS_REVERSED) != 0u ? PARAM_ONE - along : along;
+    const bool turns = is_reversed && (!is_corner || along > PARAM_ONE / 2u);
+    const uint there = turns ? PARAM_ONE - along : along;
     return number < 2u ? (uint2)(there, first) : (uint2)(first, there);
 }
 

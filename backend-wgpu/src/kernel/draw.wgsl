@@ -44,7 +44,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     seek_faces(rates, lane);
     workgroupBarrier();
     if lane == 0u {
-        put_kind(base);
+        put_head(draw, base);
     }
 }
 
@@ -112,12 +112,27 @@ fn kind() -> u32 {
     return select(KIND_GENERAL, KIND_NEAR, narrow && atomicLoad(&must_clip) == 0u);
 }
 
-fn put_kind(base: u32) {
+// What a grid that is whole can touch is known better now than when it was bounded.
+fn put_head(draw: Draw, base: u32) {
     let found = kind();
     grids[base] = found;
+    let columns = packed_range(atomicLoad(&low_x), atomicLoad(&high_x), frame.width);
+    let rows = packed_range(atomicLoad(&low_y), atomicLoad(&high_y), frame.height);
+    grids[base + 1u] = select(draw.columns, columns, found == KIND_NEAR);
+    grids[base + 2u] = select(draw.rows, rows, found == KIND_NEAR);
     if found != KIND_HIDDEN {
         grids[HEAD_KINDS + found - 1u] = 1u;
     }
+}
+
+// The pixels between the first and the last that the box around the vertices covers, of `count`, packed.
+fn packed_range(low: i32, high: i32, count: u32) -> u32 {
+    let pixels = pixels_between(low, high);
+    return within(pixels.x, count) | (within(pixels.y, count) << 16u);
+}
+
+fn within(pixel: i32, count: u32) -> u32 {
+    return select(select(u32(pixel), count, pixel > i32(count)), 0u, pixel < 0);
 }
 
 fn on_screen(row: u32, column: u32) -> Vertex {

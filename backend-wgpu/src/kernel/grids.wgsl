@@ -1,9 +1,9 @@
 // No mirror in core: where a chunk of draws lies between its two kernels, the one that dices and shades each
 // draw once (`draw.wgsl`) and the one that samples them tile by tile (`tiles.wgsl`).
 //
-// One buffer of words: the head, a box for every BLOCK of draws, then a grid a draw. A grid is its kind, then
-// column, row and 1 / distance, position and colour of all its vertices, a coordinate after the other; all grids
-// have room for as many as the largest.
+// One buffer of words: the head, a box for every BLOCK of draws, then a grid a draw. A grid is its kind and its box, then
+// column, row and 1 / distance, position and colour of all its vertices, a coordinate after the other; all grids have room
+// for as many as the largest. A box is the pixels that can be touched, columns and rows, packed as those of a draw.
 
 // Draws a chunk, and draws that share a box.
 const CHUNK: u32 = 2048u;
@@ -25,6 +25,8 @@ const HEAD_TILES: u32 = 4u;
 
 const BOXES: u32 = 8u;
 const GRIDS: u32 = BOXES + 2u * BLOCKS;
+// Words of a grid before its vertices.
+const GRID_HEAD: u32 = 3u;
 
 // Vertices of the largest grid.
 fn vertices() -> u32 {
@@ -45,12 +47,12 @@ fn tiles(pixels: u32) -> u32 {
 
 // First word of the grid of draw `index` of the chunk.
 fn grid_base(index: u32) -> u32 {
-    return GRIDS + index * (1u + 9u * vertices());
+    return GRIDS + index * (GRID_HEAD + 9u * vertices());
 }
 
 // First word of screen coordinate k (column, row, 1 / distance) of a grid.
 fn screen_base(base: u32, k: u32) -> u32 {
-    return base + 1u + k * vertices();
+    return base + GRID_HEAD + k * vertices();
 }
 
 // First word of number k (position x, y, z, colour red, green, blue) of a grid.

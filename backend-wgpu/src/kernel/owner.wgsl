@@ -35,10 +35,13 @@ fn word_for(u: u32, v: u32) -> u32 {
 fn place_on(word: u32, along: u32) -> vec2<u32> {
     let number = (word >> 1u) & 3u;
     let ends = vec2<u32>(number & 1u, number >> 1u) * PARAM_ONE;
-    if (word & OWNER_IS_CORNER) != 0u {
+    let is_corner = (word & OWNER_IS_CORNER) != 0u;
+    let is_reversed = (word & OWNER_IS_REVERSED) != 0u;
+    if is_corner && !is_reversed {
         return ends;
     }
-    let there = select(along, PARAM_ONE - along, (word & OWNER_IS_REVERSED) != 0u);
+    let turns = is_reversed && (!is_corner || along > PARAM_ONE / 2u);
+    let there = select(along, PARAM_ONE - along, turns);
     return select(vec2<u32>(ends.x, there), vec2<u32>(there, ends.x), number < 2u);
 }
 

@@ -103,9 +103,8 @@ fn touches(columns: u32, rows: u32) -> bool {
 // Lists a draw if it can touch the tile; gives the number of draws listed so far by the whole group.
 fn list(index: u32, is_one: bool, lane: u32) -> u32 {
     if is_one {
-        let item = grids[HEAD_START] + index;
-        let is_kind = grids[grid_base(index)] == KIND;
-        if is_kind && touches(draws[item].columns, draws[item].rows) {
+        let base = grid_base(index);
+        if grids[base] == KIND && touches(grids[base + 1u], grids[base + 2u]) {
             listed[atomicAdd(&listed_count, 1u)] = index;
         }
     }

@@ -1,9 +1,8 @@
 //! Dicing of Gregory patches: as `dice.rs` does it, but the inner control points are another four at each
 //! vertex. On borders they have no weight, so border vertices are those of the net alone, bit by bit.
 
-use crate::abi::{Draw, FLAG_WEBER, Frame, Object, Patch};
-use crate::kernel::dice::{Grid, LANES, Vertex, dice, finish_grid, prepare_grid, store};
-use crate::kernel::displace::dice_displaced;
+use crate::abi::{Draw, FLAG_WEBER, Frame};
+use crate::kernel::dice::{Grid, LANES, Vertex, finish_grid, prepare_grid, store};
 use crate::num::{add, mul, scale3, sub};
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
 use crate::patch::gregory::{Blend, INNER, blends, weber_blends};
@@ -34,23 +33,6 @@ pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, draw: Draw, grid: &
         }
     }
     finish_grid(net, frame, draw, grid);
-}
-
-/// Dices a surface of any patch, seen as `object` is placed.
-#[inline(always)]
-pub fn dice_any(frame: &Frame, patches: &[Patch], object: &Object, draw: Draw, grid: &mut Grid) {
-    if object.reach > 0.0 {
-        return dice_displaced(frame, patches, object, draw, grid);
-    }
-    let patch = &patches[draw.patch_id as usize];
-    let net = Net::in_eye_space(patch, object);
-    match patch.faces {
-        0 => dice(&net, frame, draw, grid),
-        record => {
-            let faces = Faces::in_eye_space(&patches[record as usize], object);
-            dice_gregory(&net, &faces, frame, draw, grid);
-        }
-    }
 }
 
 /// Evaluates a Gregory patch; the derivatives are the true ones, those of the blends included.

@@ -6,7 +6,7 @@
 
 use crate::abi::{Control, Draw, Frame, MeshPlace, MeshTotals, MeshVertex, Object, Patch};
 use crate::kernel::dice::Grid;
-use crate::kernel::dice_gregory::dice_any;
+use crate::kernel::dice_any::dice_any;
 use crate::patch::bezier::param;
 
 /// Indices of a micropolygon.

@@ -7,6 +7,7 @@ pub mod bound_lanes;
 pub mod clip;
 pub mod deal;
 pub mod dice;
+pub mod dice_any;
 pub mod dice_gregory;
 pub mod displace;
 pub mod known_answers;

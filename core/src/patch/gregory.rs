@@ -12,7 +12,7 @@ use crate::patch::bezier::{blossom, param};
 /// Where the inner points stand in a net: 2·i + j of them is the one beside the borders u = i and v = j.
 pub const INNER: [usize; 4] = [5, 6, 9, 10];
 
-/// The eight face points in eye space: those of the borders of constant u, then those of constant v, each in
+/// The eight face points, mostly in eye space: those of the borders of constant u, then those of constant v, each in
 /// the order of [`INNER`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Faces {

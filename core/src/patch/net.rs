@@ -1,4 +1,5 @@
-//! Sixteen control points in eye space, a coordinate an array, index `4·i + j` with `i` along `u`.
+//! Sixteen control points, a coordinate an array, index `4·i + j` with `i` along `u`: in eye space, or where vertices are
+//! displaced, in the space of their object.
 
 use crate::abi::{Object, Patch};
 use crate::num::{abs, add, max, mul};
@@ -6,7 +7,7 @@ use crate::patch::bezier::{blend4, blossom};
 
 use crate::abi::Surface;
 
-/// Control net of a bicubic patch or of a part of it, eye space (the eye looks along -z).
+/// Control net of a bicubic patch or of a part of it, mostly in eye space (the eye looks along -z).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Net {
     /// x of the control points.

@@ -23,6 +23,12 @@ pub const fn owned_by_side(patch_id: u32, side: u32, is_reversed: bool) -> u32 {
     (patch_id + 1) << OWNER_SHIFT | side << 1 | if is_reversed { OWNER_IS_REVERSED } else { 0 }
 }
 
+/// The word for a side of a patch that owns a side, both of which run back over their own points from the middle on.
+#[must_use]
+pub const fn owned_by_fold(patch_id: u32, side: u32) -> u32 {
+    (patch_id + 1) << OWNER_SHIFT | OWNER_IS_CORNER | side << 1 | OWNER_IS_REVERSED
+}
+
 /// The word for a corner of a patch that owns a corner, or a side that is one point.
 #[must_use]
 pub const fn owned_by_corner(patch_id: u32, corner: u32) -> u32 {
@@ -48,10 +54,12 @@ pub const fn word_for(u: u32, v: u32) -> Option<usize> {
 pub const fn place_on(word: u32, along: u32) -> [u32; 2] {
     let number = (word >> 1) & 3;
     let (first, second) = ((number & 1) * PARAM_ONE, (number >> 1) * PARAM_ONE);
-    if word & OWNER_IS_CORNER != 0 {
+    let (is_corner, is_reversed) = (word & OWNER_IS_CORNER != 0, word & OWNER_IS_REVERSED != 0);
+    if is_corner && !is_reversed {
         return [first, second];
     }
-    let along = if word & OWNER_IS_REVERSED != 0 { PARAM_ONE - along } else { along };
+    let turns = is_reversed && (!is_corner || along > PARAM_ONE / 2);
+    let along = if turns { PARAM_ONE - along } else { along };
     if number < 2 { [along, first] } else { [first, along] }
 }
 
