@@ -214,8 +214,10 @@ impl<F: FnMut(usize, Rendering) -> Result<()>> Job for RenderFrames<'_, F> {
 
     fn run<D: Device>(self, mut device: D, name: String) -> Result<()> {
         let Self { scene, options, cameras, backend, mut each } = self;
+        let patches = scene.device_patches();
         for (number, camera) in cameras.iter().enumerate() {
-            let rendering = render_from(&mut device, name.clone(), (scene, camera), options, |_| {})?;
+            let seen = (scene, camera, &*patches);
+            let rendering = render_from(&mut device, name.clone(), seen, options, |_| {})?;
             each(number, Rendering { backend, ..rendering })?;
         }
         Ok(())

@@ -13,7 +13,7 @@ use crate::backend::Backend;
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::image::{Encoder, Image};
-use crate::scene::{DeviceScene, Scene};
+use crate::scene::Scene;
 use crate::timed::{Seconds, Timed};
 
 /// Rows that are read from the device and encoded at once.
@@ -101,24 +101,30 @@ pub fn render_on<D: Device>(
     options: &RenderOptions,
     progress: impl FnMut(&Counts),
 ) -> Result<Rendering> {
-    render_from(device, device_name, (scene, &scene.camera), options, progress)
+    let start = Instant::now();
+    let patches = scene.device_patches();
+    let made = start.elapsed().as_secs_f64();
+    let mut rendering =
+        render_from(device, device_name, (scene, &scene.camera, &patches), options, progress)?;
+    rendering.seconds.setup += made;
+    Ok(rendering)
 }
 
-/// As [`render_on`], seen by another camera than the scene's own.
+/// As [`render_on`], of these patches of the scene, which are all, seen by any camera.
 pub(crate) fn render_from<D: Device>(
     device: &mut D,
     device_name: String,
-    (scene, camera): (&Scene, &Camera),
+    (scene, camera, patches): (&Scene, &Camera, &[Patch]),
     options: &RenderOptions,
     progress: impl FnMut(&Counts),
 ) -> Result<Rendering> {
     let start = Instant::now();
-    let DeviceScene { frame, objects, patches } = scene.seen_from(camera, &options.frame)?;
+    let (frame, objects) = scene.view(camera, &options.frame)?;
     let (plan, notes) = plan_on(device, scene, options, frame)?;
     let sizes = *plan.sizes();
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::on_device(&error);
-    let mut buffers = plan.prepare(&mut device, &objects, &patches).map_err(failed)?;
+    let mut buffers = plan.prepare(&mut device, &objects, patches).map_err(failed)?;
     let setup = start.elapsed().as_secs_f64();
     let counts = plan.run(&mut device, &mut buffers, progress).map_err(failed)?;
     let bytes_allocated = device.bytes_allocated();

@@ -248,6 +248,15 @@ impl Scene {
 
     /// As [`Scene::for_device`], with another camera.
     pub(crate) fn seen_from(&self, camera: &Camera, options: &FrameOptions) -> Result<DeviceScene> {
+        let (frame, objects) = self.view(camera, options)?;
+        Ok(DeviceScene { frame, objects, patches: self.device_patches() })
+    }
+
+    /// What of a scene depends on the camera, as devices read it.
+    ///
+    /// # Errors
+    /// As [`Scene::for_device`].
+    pub(crate) fn view(&self, camera: &Camera, options: &FrameOptions) -> Result<(Frame, Vec<Object>)> {
         if self.patch_count() == 0 {
             return Err(Error::scene("the scene has no patches", "add an [[object]] with geometry"));
         }
@@ -260,14 +269,20 @@ impl Scene {
                 "near must be 1e-6 or more, fov between 0 and 180 degrees",
             ));
         }
-        let count = self.patch_count();
-        let (mut patches, mut faces) = (Vec::with_capacity(count + self.gregory_count()), Vec::new());
         let mut objects = Vec::with_capacity(self.objects.len());
-        for (index, object) in self.objects.iter().enumerate() {
+        for object in &self.objects {
             let placed = object.placed(camera);
             check_extent(&placed, object)?;
             objects.push(placed);
-            let index = index as u32;
+        }
+        Ok((camera.frame(options, self.ambient, &self.lights), objects))
+    }
+
+    /// What of a scene does not.
+    pub(crate) fn device_patches(&self) -> Vec<Patch> {
+        let count = self.patch_count();
+        let (mut patches, mut faces) = (Vec::with_capacity(count + self.gregory_count()), Vec::new());
+        for (index, object) in (0..).zip(&self.objects) {
             patches.extend(object.patches.iter().map(|patch| device_patch(patch.points, index, 0)));
             for patch in &object.gregory {
                 patches.push(device_patch(patch.net(), index, (count + faces.len()) as u32));
@@ -279,7 +294,7 @@ impl Scene {
             let mut room = vec![0; room_needed(&patches)];
             find_owners(&mut patches, &mut room);
         }
-        Ok(DeviceScene { frame: camera.frame(options, self.ambient, &self.lights), objects, patches })
+        patches
     }
 }
 

@@ -73,7 +73,8 @@ impl Object {
             rows[k].length() * f64::from(height) * 1.0001 + 2.0 * farthest * f64::from(ROUNDING)
         };
         Self {
-            reach: moved(0).max(moved(1)).max(moved(2)) as f32,
+            // Never 0, which means that there is no displacement, nor a denormal, which some devices take for it.
+            reach: moved(0).max(moved(1)).max(moved(2)).max(1.0e-30) as f32,
             height: (f64::from(height) / displacement.sum()) as f32,
             frequency,
             octaves,
