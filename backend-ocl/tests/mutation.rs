@@ -7,6 +7,9 @@ use micropoly_backend_ocl::{FILES, OclDevice, OclError, OpenOptions};
 use micropoly_conformance::trial::{self, Allowed, Edit, File};
 use micropoly_core::stage::Stage;
 
+/// Mutants of each file.
+const MUTANTS_A_FILE: usize = 2;
+
 /// Mutants that nothing can notice.
 const ALLOWED: &[Allowed] = &[
     Allowed {
@@ -170,5 +173,5 @@ fn main() -> ExitCode {
         .filter(|(name, _)| *name != "gen.cl")
         .map(|&(name, source)| File { name, source, stages: stages(name) })
         .collect();
-    trial::main(&files, ALLOWED, CpuDevice::new(1).expect("threads"), open)
+    trial::main(&files, ALLOWED, MUTANTS_A_FILE, CpuDevice::new(1).expect("threads"), open)
 }

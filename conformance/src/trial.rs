@@ -19,8 +19,6 @@ use crate::corpus::ROUNDS;
 use crate::mutation::{Mutant, mutants, sample};
 use crate::report::check_stage;
 
-/// Mutants a file where nobody asks for another number.
-const MOST: usize = 2;
 /// Mutants of a stage's own file where the comparison of that stage noticed none.
 const MORE: usize = 8;
 /// After this long a mutant counts as hanging; kernels that nobody changed are given four times as long.
@@ -107,16 +105,18 @@ impl Fate {
     }
 }
 
-/// The whole test. `open` opens a device on which the stages given can be run, its arithmetic unchecked.
+/// The whole test. `open` opens a device on which the stages given can be run, its arithmetic unchecked; `usual` mutants of
+/// each file are run where nobody asks for another number.
 pub fn main<R: Device, D: Device, E: Display>(
     files: &[File],
     allowed: &[Allowed],
+    usual: usize,
     mut reference: R,
     open: impl Fn(&[Stage], Edit<'_>) -> Result<D, E>,
 ) -> ExitCode {
     let arguments: Vec<String> = std::env::args().collect();
     let Some(place) = arguments.iter().position(|argument| argument == ONE) else {
-        return if is_meant(&arguments) { run_all(files, allowed) } else { ExitCode::SUCCESS };
+        return if is_meant(&arguments) { run_all(files, allowed, usual) } else { ExitCode::SUCCESS };
     };
     let (name, number) = (arguments[place + 1].as_str(), arguments[place + 2].parse().unwrap_or(0));
     let fate = match files.iter().find(|file| file.name == name) {
@@ -176,7 +176,7 @@ struct Task<'a> {
     mutant: Mutant,
 }
 
-fn run_all(files: &[File], allowed: &[Allowed]) -> ExitCode {
+fn run_all(files: &[File], allowed: &[Allowed], usual: usize) -> ExitCode {
     assert_all_are_there(files, allowed);
     let started = Instant::now();
     let control = fates(&Stage::ALL.map(|stage| (CONTROL, stage as usize)));
@@ -184,7 +184,7 @@ fn run_all(files: &[File], allowed: &[Allowed]) -> ExitCode {
         control.iter().all(|fate| *fate == Fate::Survived),
         "unchanged kernels are at fault: {control:?}"
     );
-    let mut tasks: Vec<Task<'_>> = files.iter().flat_map(tasks).collect();
+    let mut tasks: Vec<Task<'_>> = files.iter().flat_map(|file| tasks(file, usual)).collect();
     let mut fates = fates_of(&tasks);
     // Where all that was tried crashed, some more may not.
     let more: Vec<Task<'_>> = blind(&fates).flat_map(|stage| further(files, stage, &tasks)).collect();
@@ -225,15 +225,15 @@ fn further<'a>(files: &'a [File], stage: &str, done: &[Task<'_>]) -> Vec<Task<'a
 }
 
 /// The mutants of a file that are to be run.
-fn tasks(file: &File) -> Vec<Task<'_>> {
+fn tasks(file: &File, usual: usize) -> Vec<Task<'_>> {
     let only = std::env::var("MUTANTS_OF").unwrap_or_default();
     if !only.is_empty() && !only.split(',').any(|name| name == file.name) {
         return Vec::new();
     }
     let most = match std::env::var("MUTANTS").as_deref() {
         Ok("all") => usize::MAX,
-        Ok(number) => number.parse().unwrap_or(MOST),
-        Err(_) => MOST,
+        Ok(number) => number.parse().unwrap_or(usual),
+        Err(_) => usual,
     };
     let all: Vec<_> = mutants(file.source).into_iter().enumerate().collect();
     sample(all, most).into_iter().map(|(number, mutant)| Task { file, number, mutant }).collect()
