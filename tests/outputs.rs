@@ -145,12 +145,14 @@ fn diff_says_how_much_pictures_differ_and_exits_with_3_if_it_is_too_much() {
     let (code, _, _) = micropoly(&[&both[..], &["--fail-percent=5", "--hard-fail=0.01"]].concat());
     assert_eq!(code, 3);
     std::fs::write(file("broken.exr"), "no such thing").expect("written");
-    // A file that claims a thousand million pixels in each direction.
+    // A file that claims a million pixels in each direction.
     let mut claims = std::fs::read(&exr).expect("a file");
     let window = claims.windows(11).position(|name| name == b"dataWindow\0").expect("a window") + 11 + 6 + 4;
-    claims[window + 8..window + 16].copy_from_slice(&[0xff, 0xff, 0xff, 0x3f, 0xff, 0xff, 0xff, 0x3f]);
+    claims[window + 8..window + 16].copy_from_slice(&[0x3f, 0x42, 0x0f, 0, 0x3f, 0x42, 0x0f, 0]);
     std::fs::write(file("claims.exr"), claims).expect("written");
-    for wrong in ["broken.exr", "claims.exr", "missing.png"] {
+    let (code, _, text) = micropoly(&["diff", utf8(&first), utf8(&file("claims.exr"))]);
+    assert!(code == 1 && text.contains("too short for its size"), "{text}");
+    for wrong in ["broken.exr", "missing.png"] {
         let (code, _, text) = micropoly(&["diff", utf8(&first), utf8(&file(wrong))]);
         assert!(code == 1 && text.contains(wrong), "{text}");
     }

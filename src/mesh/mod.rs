@@ -21,6 +21,7 @@ use rayon::prelude::*;
 use crate::backend::on_first_device;
 use crate::devices::{Job, with_device};
 use crate::error::{Error, Result};
+use crate::picture::extension;
 use crate::render::{RenderOptions, plan_on, read_all};
 use crate::scene::{DeviceScene, Scene};
 
@@ -57,7 +58,7 @@ impl Format {
     /// By the end of a file's name.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        match extension(path).as_str() {
             "obj" => Some(Self::Obj),
             "ply" => Some(Self::Ply),
             "glb" => Some(Self::Glb),
