@@ -1,13 +1,12 @@
 //! Choice of a backend: what was built in, what is there, and what to say if it is not.
 
 use micropoly_core::backend::Device;
-use micropoly_core::camera::Camera;
-use micropoly_core::render::Counts;
 
 use crate::devices::{DeviceEntry, Job, devices_of, find, with_device};
 use crate::error::{Error, Result};
-use crate::render::{RenderOptions, Rendering, render_from, render_on};
+use crate::render::{Progress, RenderOptions, Rendering, Subject, render_from, render_on};
 use crate::scene::Scene;
+use crate::shot::Shot;
 
 /// What renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -125,7 +124,7 @@ fn gpus_then_cpu() -> Result<(Vec<DeviceEntry>, Vec<String>)> {
 ///
 /// # Errors
 /// [`Error::Backend`], [`Error::Refused`], [`Error::Scene`], [`Error::Plan`] or [`Error::Device`].
-pub fn render<F: FnMut(&Counts)>(
+pub fn render<F: FnMut(&Progress<'_>)>(
     scene: &Scene,
     options: &RenderOptions,
     mut progress: F,
@@ -139,18 +138,18 @@ pub fn render<F: FnMut(&Counts)>(
     Ok(Rendering { backend, notes, ..rendering })
 }
 
-/// Renders a scene as seen by one camera after the other, on one device; `each` is given every rendering, by number.
+/// Renders a scene in one shot after the other, on one device; `each` is given every rendering, by number.
 ///
 /// # Errors
 /// As [`render`]; what `each` reports.
 pub fn render_frames(
     scene: &Scene,
     options: &RenderOptions,
-    cameras: &[Camera],
+    shots: &[Shot],
     mut each: impl FnMut(usize, Rendering) -> Result<()>,
 ) -> Result<Vec<String>> {
     let (done, notes) = on_first_device(options, |entry| {
-        let job = RenderFrames { scene, options, cameras, backend: entry.backend, each: &mut each };
+        let job = RenderFrames { scene, options, shots, backend: entry.backend, each: &mut each };
         with_device(entry, options.threads, job)
     })?;
     done?;
@@ -192,7 +191,7 @@ struct Render<'a, F> {
     progress: F,
 }
 
-impl<F: FnMut(&Counts)> Job for Render<'_, F> {
+impl<F: FnMut(&Progress<'_>)> Job for Render<'_, F> {
     type Output = Result<Rendering>;
 
     fn run<D: Device>(self, mut device: D, name: String) -> Result<Rendering> {
@@ -200,11 +199,11 @@ impl<F: FnMut(&Counts)> Job for Render<'_, F> {
     }
 }
 
-/// Rendering a scene from several cameras, as a job for any device.
+/// Rendering a scene in several shots, as a job for any device.
 struct RenderFrames<'a, F> {
     scene: &'a Scene,
     options: &'a RenderOptions,
-    cameras: &'a [Camera],
+    shots: &'a [Shot],
     backend: Backend,
     each: F,
 }
@@ -213,11 +212,11 @@ impl<F: FnMut(usize, Rendering) -> Result<()>> Job for RenderFrames<'_, F> {
     type Output = Result<()>;
 
     fn run<D: Device>(self, mut device: D, name: String) -> Result<()> {
-        let Self { scene, options, cameras, backend, mut each } = self;
+        let Self { scene, options, shots, backend, mut each } = self;
         let patches = scene.device_patches();
-        for (number, camera) in cameras.iter().enumerate() {
-            let seen = (scene, camera, &*patches);
-            let rendering = render_from(&mut device, name.clone(), seen, options, |_| {})?;
+        for (number, shot) in shots.iter().enumerate() {
+            let subject = Subject { scene, shot: *shot, patches: &patches };
+            let rendering = render_from(&mut device, name.clone(), subject, options, |_| {})?;
             each(number, Rendering { backend, ..rendering })?;
         }
         Ok(())

@@ -7,7 +7,7 @@ use std::path::Path;
 use glam::Vec3;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-use micropoly_core::abi::Colour;
+use micropoly_core::abi::Pixel;
 
 use crate::error::{Error, Result};
 
@@ -57,11 +57,11 @@ pub(crate) fn write_png(
 }
 
 impl Image {
-    /// Linear colours as an image before a black background.
+    /// Pixels as an image before a black background.
     #[must_use]
-    pub fn from_colours(width: u32, height: u32, colours: &[Colour]) -> Self {
-        let mut rgb = Vec::with_capacity(colours.len() * 3);
-        Encoder::new(Vec3::ZERO).append(colours, &mut rgb);
+    pub fn from_pixels(width: u32, height: u32, pixels: &[Pixel]) -> Self {
+        let mut rgb = vec![0; pixels.len() * 3];
+        Encoder::new(Vec3::ZERO).encode_row(pixels, &mut rgb);
         Self { width, height, rgb }
     }
 }
@@ -73,7 +73,7 @@ const STEPS: usize = 1 << 16;
 /// Turns linear colours into 8-bit sRGB by table.
 pub(crate) struct Encoder {
     level: Vec<u8>,
-    background: [u8; 3],
+    background: Vec3,
 }
 
 impl Encoder {
@@ -87,25 +87,25 @@ impl Encoder {
             level[next..end].fill(output);
             next = end;
         }
-        let mut encoder = Self { level, background: [0; 3] };
-        encoder.background = background.to_array().map(|value| encoder.encode(value));
-        encoder
+        Self { level, background }
     }
 
     fn encode(&self, linear: f32) -> u8 {
         self.level[(linear.clamp(0.0, 1.0) * (STEPS - 1) as f32 + 0.5) as usize]
     }
 
-    /// Appends the pixels of `colours`.
-    pub(crate) fn append(&self, colours: &[Colour], rgb: &mut Vec<u8>) {
-        for &Colour { rgba: [red, green, blue, coverage] } in colours {
-            if coverage > 0.0 {
-                rgb.extend_from_slice(&[self.encode(red), self.encode(green), self.encode(blue)]);
-            } else {
-                rgb.extend_from_slice(&self.background);
-            }
+    /// Encodes pixels, red, green and blue of each.
+    pub(crate) fn encode_row(&self, pixels: &[Pixel], rgb: &mut [u8]) {
+        for (pixel, rgb) in pixels.iter().zip(rgb.as_chunks_mut::<3>().0) {
+            *rgb = over(pixel, self.background).map(|value| self.encode(value));
         }
     }
+}
+
+/// What a pixel shows before a background, linear RGB.
+pub(crate) fn over(pixel: &Pixel, background: Vec3) -> [f32; 3] {
+    let [red, green, blue, coverage] = pixel.rgba;
+    (Vec3::new(red, green, blue) + background * (1.0 - coverage)).to_array()
 }
 
 /// The linear value, 0 to 1, of an sRGB value, 0 to 1 (IEC 61966-2-1).

@@ -18,6 +18,7 @@
 mod backend;
 pub mod bench;
 pub mod bpt;
+mod canvas;
 pub mod devices;
 pub mod dicing;
 pub mod diff;
@@ -28,11 +29,13 @@ mod gregory;
 mod image;
 pub mod mesh;
 pub mod mscene;
+mod passes;
 mod path;
 mod picture;
 mod render;
 mod scene;
 pub mod scene_file;
+mod shot;
 pub mod stats;
 mod timed;
 
@@ -41,7 +44,11 @@ pub use micropoly_backend_wgpu as backend_wgpu;
 pub use micropoly_core as core;
 
 pub use crate::backend::{Backend, render, render_frames};
-pub use crate::core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile};
+pub use crate::core::camera::{
+    Borders, Camera, FrameOptions, Light, Material, Profile, Rasteriser, Shading,
+};
+pub use crate::core::pattern::{Samples, Window};
+pub use crate::core::reconstruction::{Filter, Kernel};
 pub use crate::core::render::Counts;
 pub use crate::core::schedule::Scheduler;
 pub use crate::error::{Error, Result};
@@ -50,6 +57,7 @@ pub use crate::gregory::GregoryPatch;
 pub use crate::image::Image;
 pub use crate::path::{CameraKey, CameraPath};
 pub use crate::picture::{Picture, extension};
-pub use crate::render::{Batch, RenderOptions, Rendering, render_on, sizes_for};
-pub use crate::scene::{BezierPatch, DeviceScene, Scene, SceneObject};
+pub use crate::render::{Batch, Progress, RenderOptions, Rendering, render_on, sizes_for};
+pub use crate::scene::{BezierPatch, DeviceScene, Motion, Scene, SceneObject};
+pub use crate::shot::{Blur, Lens, Shot};
 pub use crate::timed::Seconds;

@@ -4,20 +4,23 @@ use std::time::Instant;
 
 use micropoly_core::abi::{Frame, Patch, Sample, Shared};
 use micropoly_core::backend::Device;
-use micropoly_core::camera::{Camera, FrameOptions};
-use micropoly_core::memory::{DEFAULT_BATCH, Room, Sizes};
-use micropoly_core::render::{Buffers, Counts, FramePlan};
+use micropoly_core::camera::FrameOptions;
+use micropoly_core::memory::{Area, DEFAULT_BATCH, Room, Sizes};
+use micropoly_core::pattern::Window;
+use micropoly_core::reconstruction::Filter;
+use micropoly_core::render::{Counts, FramePlan};
 use micropoly_core::schedule::Scheduler;
+use micropoly_core::stage::Extent;
 
 use crate::backend::Backend;
+use crate::canvas::Canvas;
 use crate::error::{Error, Result};
 use crate::film::Film;
-use crate::image::{Encoder, Image};
+use crate::image::Image;
+use crate::passes::Passes;
 use crate::scene::Scene;
+use crate::shot::{Blur, Shot};
 use crate::timed::{Seconds, Timed};
-
-/// Rows that are read from the device and encoded at once.
-const RESOLVE_ROWS: u32 = 16;
 
 /// How many surfaces are worked on at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +34,7 @@ pub enum Batch {
 
 impl Batch {
     /// Most bytes that the device may hold.
-    const fn budget(self) -> u64 {
+    pub(crate) const fn budget(self) -> u64 {
         match self {
             Self::Surfaces(_) => u64::MAX,
             Self::Memory(bytes) => bytes,
@@ -52,8 +55,14 @@ pub struct RenderOptions {
     pub backend: Backend,
     /// Number or part of the name of a device of the backend; its first one if there is nothing here.
     pub device: Option<String>,
-    /// Image size, bound, dice rate, depth.
+    /// Image size, bound, dice rate, depth, samples.
     pub frame: FrameOptions,
+    /// How samples become pixels.
+    pub filter: Filter,
+    /// Shutter and lens, if not the scene's own.
+    pub blur: Option<Blur>,
+    /// The part of the image that is wanted, if not all of it: the same pixels as without.
+    pub crop: Option<Window>,
     /// Batch size or memory budget. The image does not depend on it.
     pub batch: Batch,
     /// How the stack is worked off. The image does not depend on it.
@@ -67,6 +76,37 @@ pub struct RenderOptions {
     pub film: bool,
 }
 
+impl RenderOptions {
+    /// The part of the image that is rendered.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if it is empty or not inside the image.
+    pub fn window(&self) -> Result<Window> {
+        let FrameOptions { width, height, .. } = self.frame;
+        let whole = Window::whole(width, height);
+        let window = self.crop.unwrap_or(whole);
+        let Window { left, right, top, bottom } = window;
+        if left < right && right <= width && top < bottom && bottom <= height {
+            return Ok(window);
+        }
+        let problem =
+            format!("the crop window {left},{top},{right},{bottom} is empty or reaches beyond the image");
+        Err(Error::scene(
+            problem,
+            format!("choose left and top from 0, right up to {width}, bottom up to {height}"),
+        ))
+    }
+}
+
+/// How far a rendering is.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    /// Share of the work, from 0 to 1; where things can be seen through, of the layer in work.
+    pub share: f64,
+    /// What was counted so far in the part of the image that is in work.
+    pub counts: &'a Counts,
+}
+
 /// An image, and what it took.
 #[derive(Clone, Debug)]
 pub struct Rendering {
@@ -74,7 +114,7 @@ pub struct Rendering {
     pub image: Image,
     /// Its linear values, if they were asked for.
     pub film: Option<Film>,
-    /// What was counted on the way.
+    /// What was counted on the way, in all parts of the image and all passes together.
     pub counts: Counts,
     /// Buffer sizes, and so the proven bounds.
     pub sizes: Sizes,
@@ -99,45 +139,53 @@ pub fn render_on<D: Device>(
     device_name: String,
     scene: &Scene,
     options: &RenderOptions,
-    progress: impl FnMut(&Counts),
+    progress: impl FnMut(&Progress<'_>),
 ) -> Result<Rendering> {
     let start = Instant::now();
     let patches = scene.device_patches();
     let made = start.elapsed().as_secs_f64();
-    let mut rendering =
-        render_from(device, device_name, (scene, &scene.camera, &patches), options, progress)?;
+    let subject = Subject { scene, shot: Shot::of(scene), patches: &patches };
+    let mut rendering = render_from(device, device_name, subject, options, progress)?;
     rendering.seconds.setup += made;
     Ok(rendering)
 }
 
-/// As [`render_on`], of these patches of the scene, which are all, seen by any camera.
+/// What is rendered: a scene at some moment, and its patches, which are all.
+#[derive(Clone, Copy)]
+pub(crate) struct Subject<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) shot: Shot,
+    pub(crate) patches: &'a [Patch],
+}
+
+/// As [`render_on`], at any moment.
 pub(crate) fn render_from<D: Device>(
     device: &mut D,
     device_name: String,
-    (scene, camera, patches): (&Scene, &Camera, &[Patch]),
+    subject: Subject<'_>,
     options: &RenderOptions,
-    progress: impl FnMut(&Counts),
+    progress: impl FnMut(&Progress<'_>),
 ) -> Result<Rendering> {
     let start = Instant::now();
-    let (frame, objects) = scene.view(camera, &options.frame)?;
-    let (plan, notes) = plan_on(device, scene, options, frame)?;
-    let sizes = *plan.sizes();
+    let scene = subject.scene;
+    let job = Passes::new(subject, options)?;
+    let (plan, regions, notes) = job.plan_on(device)?;
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::on_device(&error);
-    let mut buffers = plan.prepare(&mut device, &objects, patches).map_err(failed)?;
+    let mut buffers = plan.prepare(&mut device, &job.views[0].1, subject.patches).map_err(failed)?;
     let setup = start.elapsed().as_secs_f64();
-    let counts = plan.run(&mut device, &mut buffers, progress).map_err(failed)?;
-    let bytes_allocated = device.bytes_allocated();
+    let mut canvas = Canvas::new(job.window, scene.background, options.film);
+    let counts = job.run(&mut device, &plan, &mut buffers, &regions, &mut canvas, progress)?;
     let resolving = Instant::now();
-    let image = resolve(&mut device, &buffers.colours, scene, &options.frame).map_err(failed)?;
-    let film = options.film.then(|| film_of(&mut device, &buffers, scene, &options.frame));
-    let film = film.transpose().map_err(failed)?;
-    let seconds = Seconds { setup, resolve: resolving.elapsed().as_secs_f64(), ..device.seconds };
+    let bytes_allocated = device.bytes_allocated();
+    let film = options.film.then(|| canvas.film(&job, subject, (options.frame.width, options.frame.height)));
+    let resolve = device.seconds.resolve + canvas.seconds + resolving.elapsed().as_secs_f64();
+    let seconds = Seconds { setup, resolve, ..device.seconds };
     Ok(Rendering {
-        image,
+        image: canvas.image(),
         film,
         counts,
-        sizes,
+        sizes: *plan.sizes(),
         bytes_allocated,
         device: device_name,
         seconds,
@@ -146,22 +194,23 @@ pub(crate) fn render_from<D: Device>(
     })
 }
 
-/// The plan of a frame on a device, and what a user should be told about it.
+/// The plan of a frame that is subdivided on a device, and what a user should be told about it.
 pub(crate) fn plan_on<D: Device>(
     device: &D,
     scene: &Scene,
     options: &RenderOptions,
     frame: Frame,
 ) -> Result<(FramePlan, Vec<String>)> {
-    let room = room_on(device, &options.frame);
-    let sizes = chosen_sizes(scene, options, room)?;
+    let area = Area::of(&frame);
+    let room = room_on(device, Extent::of(&frame, area.samples));
+    let sizes = chosen_sizes(scene, options, room, area)?;
     let notes = note_on(options, &sizes, room).into_iter().collect();
     let plan = FramePlan::with_sizes(frame, sizes).map_err(Error::Plan)?.within(options.batch.budget());
     Ok((plan, notes))
 }
 
 /// Sizes with the largest batch that was asked for and that fits the budget and the device.
-fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room) -> Result<Sizes> {
+pub(crate) fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room, area: Area) -> Result<Sizes> {
     let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
     let FrameOptions { width, height, levels, .. } = options.frame;
     let batch = match options.batch {
@@ -176,7 +225,7 @@ fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room) -> Result<Si
         return Err(Error::scene(problem, "leave out --stack, or use --scheduler adaptive or local"));
     }
     let sizes =
-        Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height }.checked();
+        Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height, area }.checked();
     sizes.and_then(|sizes| sizes.fitted(Room { bytes: options.batch.budget(), ..room })).map_err(Error::Plan)
 }
 
@@ -185,14 +234,14 @@ fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room) -> Result<Si
 /// # Errors
 /// [`Error::Plan`] if it cannot be rendered so.
 pub fn sizes_for(scene: &Scene, options: &RenderOptions) -> Result<Sizes> {
-    chosen_sizes(scene, options, Room::UNLIMITED)
+    let subject = Subject { scene, shot: Shot::of(scene), patches: &[] };
+    Passes::new(subject, options)?.fitted(|_| Room::UNLIMITED).map(|(sizes, _)| sizes)
 }
 
 /// What the device leaves to the plan.
-fn room_on<D: Device>(device: &D, options: &FrameOptions) -> Room {
-    let FrameOptions { width, height, rate, .. } = *options;
+pub(crate) fn room_on<D: Device>(device: &D, extent: Extent) -> Room {
     Room {
-        taken: device.own_bytes(width, height, rate),
+        taken: device.own_bytes(extent),
         buffer_bytes: device.max_buffer_bytes(Sample::LAYOUT),
         patch_bytes: device.max_buffer_bytes(Patch::LAYOUT),
         ..Room::UNLIMITED
@@ -200,7 +249,7 @@ fn room_on<D: Device>(device: &D, options: &FrameOptions) -> Room {
 }
 
 /// Tells a user whose batch does not fit the device.
-fn note_on(options: &RenderOptions, sizes: &Sizes, room: Room) -> Option<String> {
+pub(crate) fn note_on(options: &RenderOptions, sizes: &Sizes, room: Room) -> Option<String> {
     let has_batch = !matches!(options.scheduler, Scheduler::Stack | Scheduler::Breadth);
     match options.batch {
         Batch::Surfaces(asked) if has_batch && asked > sizes.batch => Some(format!(
@@ -210,20 +259,6 @@ fn note_on(options: &RenderOptions, sizes: &Sizes, room: Room) -> Option<String>
         )),
         _ => None,
     }
-}
-
-/// Linear values of all samples.
-fn film_of<D: Device>(
-    device: &mut D,
-    buffers: &Buffers<D::Buffer>,
-    scene: &Scene,
-    options: &FrameOptions,
-) -> std::result::Result<Film, D::Error> {
-    let FrameOptions { width, height, .. } = *options;
-    let count = width as usize * height as usize;
-    let colours = read_all(device, &buffers.colours, count)?;
-    let samples = read_all(device, &buffers.samples, count)?;
-    Ok(Film { width, height, background: scene.background, colours, samples })
 }
 
 /// Entries that are read at once.
@@ -240,23 +275,4 @@ pub(crate) fn read_all<D: Device, T: Shared>(
         device.read(buffer, (index * BLOCK) as u64, block)?;
     }
     Ok(all)
-}
-
-fn resolve<D: Device>(
-    device: &mut D,
-    colours: &D::Buffer,
-    scene: &Scene,
-    options: &FrameOptions,
-) -> std::result::Result<Image, D::Error> {
-    let FrameOptions { width, height, .. } = *options;
-    let encoder = Encoder::new(scene.background);
-    let mut rgb = Vec::with_capacity(width as usize * height as usize * 3);
-    let mut block = vec![bytemuck::Zeroable::zeroed(); (width * RESOLVE_ROWS.min(height)) as usize];
-    for row in (0..height).step_by(RESOLVE_ROWS as usize) {
-        let rows = RESOLVE_ROWS.min(height - row);
-        let block = &mut block[..(width * rows) as usize];
-        device.read(colours, u64::from(row) * u64::from(width), block)?;
-        encoder.append(block, &mut rgb);
-    }
-    Ok(Image { width, height, rgb })
 }

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use glam::{DAffine3, DVec3, Vec3};
-use micropoly_core::abi::{Frame, MAX_COORDINATE, Object, Patch};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use micropoly_core::abi::{FLAG_LAYERS, Frame, MAX_COORDINATE, Object, Patch};
 use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::displacement::{Displacement, Unfit};
@@ -11,6 +11,7 @@ use micropoly_core::displacement::{Displacement, Unfit};
 use crate::error::{Error, Result};
 use crate::gregory::GregoryPatch;
 use crate::path::CameraPath;
+use crate::shot::Blur;
 use crate::{bpt, mscene, scene_file};
 
 /// A bicubic Bézier patch: 16 control points, index `4·i + j` with `i` along u.
@@ -40,6 +41,45 @@ pub struct SceneObject {
     pub material: Material,
     /// Bumps by which its vertices are moved.
     pub displacement: Option<Displacement>,
+    /// How it moves.
+    pub motion: Motion,
+}
+
+/// How an object moves: evenly, from where it stands at frame 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// How far from one frame to the next, in world space.
+    pub translate: DVec3,
+    /// Degrees from one frame to the next about axes through its origin, parallel to the world's: about x, then y, then z.
+    pub rotate: DVec3,
+}
+
+impl Motion {
+    /// Does it move at all?
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Where an object that stands so at frame 0 is at another.
+    #[must_use]
+    pub fn at(&self, to_world: DAffine3, frame: f64) -> DAffine3 {
+        if self.is_none() {
+            return to_world;
+        }
+        let turned = rotation(self.rotate * frame) * to_world.matrix3;
+        DAffine3::from_mat3_translation(turned, to_world.translation + self.translate * frame)
+    }
+}
+
+/// Turns by the given degrees about x, then y, then z.
+pub(crate) fn rotation(degrees: DVec3) -> DMat3 {
+    let turn = |axis: DVec3, degrees: f64| {
+        let (sine, cosine) = libm::sincos(degrees.to_radians());
+        let column = |v: DVec3| v * cosine + axis.cross(v) * sine + axis * axis.dot(v) * (1.0 - cosine);
+        DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+    };
+    turn(DVec3::Z, degrees.z) * turn(DVec3::Y, degrees.y) * turn(DVec3::X, degrees.x)
 }
 
 /// All there is to see, and from where.
@@ -51,6 +91,8 @@ pub struct Scene {
     pub camera: Camera,
     /// The camera's path, for frames of an animation.
     pub path: Option<CameraPath>,
+    /// How long the camera looks, and through what lens.
+    pub blur: Blur,
     /// Colour where nothing is, linear RGB.
     pub background: Vec3,
     /// Light from everywhere, linear RGB.
@@ -106,8 +148,8 @@ impl SceneObject {
     }
 
     /// As devices read it.
-    fn placed(&self, camera: &Camera) -> Object {
-        let object = camera.object(self.to_world, &self.material);
+    fn placed(&self, camera: &Camera, frame: f64) -> Object {
+        let object = camera.object(self.motion.at(self.to_world, frame), &self.material);
         match &self.displacement {
             Some(displacement) => object.displaced(displacement, self.extent()),
             None => object,
@@ -148,9 +190,10 @@ impl Scene {
     /// # Errors
     /// [`Error::Scene`] if the patches lie too far out to be seen at all.
     pub fn around(name: String, patches: Vec<BezierPatch>) -> Result<Self> {
-        let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5 };
-        let (gregory, to_world, displacement) = (Vec::new(), DAffine3::IDENTITY, None);
-        let objects = vec![SceneObject { patches, gregory, to_world, material, displacement }];
+        let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5, opacity: 1.0 };
+        let (gregory, to_world) = (Vec::new(), DAffine3::IDENTITY);
+        let (displacement, motion) = (None, Motion::default());
+        let objects = vec![SceneObject { patches, gregory, to_world, material, displacement, motion }];
         let (low, high) = bounds_of(&objects);
         let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = if radius > 0.0 { radius } else { 1.0 };
@@ -162,6 +205,7 @@ impl Scene {
             name,
             camera,
             path: None,
+            blur: Blur::default(),
             background: Vec3::splat(0.8),
             ambient: Vec3::splat(0.15),
             lights: vec![Light::Directional { to_light, colour: Vec3::splat(0.9) }],
@@ -221,10 +265,30 @@ impl Scene {
         Err(Error::scene("a colour is negative or not finite", "use values from 0"))
     }
 
+    /// Can anything be seen through?
+    #[must_use]
+    pub fn is_transparent(&self) -> bool {
+        self.objects.iter().any(|object| object.material.opacity < 1.0)
+    }
+
+    /// Does anything move, be it the camera?
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.path.is_some() || self.objects.iter().any(|object| !object.motion.is_none())
+    }
+
     /// Is any object displaced?
     #[must_use]
     pub fn is_displaced(&self) -> bool {
         self.objects.iter().any(|object| object.displacement.is_some())
+    }
+
+    fn check_looks(&self) -> Result<()> {
+        let opacities = self.objects.iter().map(|object| object.material.opacity);
+        if opacities.into_iter().all(|opacity| opacity > 0.0 && opacity <= 1.0) {
+            return Ok(());
+        }
+        Err(Error::scene("an opacity is not above 0 and up to 1", "use 1 for what cannot be seen through"))
     }
 
     fn check_displacements(&self, options: &FrameOptions) -> Result<()> {
@@ -248,20 +312,26 @@ impl Scene {
 
     /// As [`Scene::for_device`], with another camera.
     pub(crate) fn seen_from(&self, camera: &Camera, options: &FrameOptions) -> Result<DeviceScene> {
-        let (frame, objects) = self.view(camera, options)?;
+        let (frame, objects) = self.view(camera, 0.0, options)?;
         Ok(DeviceScene { frame, objects, patches: self.device_patches() })
     }
 
-    /// What of a scene depends on the camera, as devices read it.
+    /// What of a scene depends on the camera and on time, in frames, as devices read it.
     ///
     /// # Errors
     /// As [`Scene::for_device`].
-    pub(crate) fn view(&self, camera: &Camera, options: &FrameOptions) -> Result<(Frame, Vec<Object>)> {
+    pub(crate) fn view(
+        &self,
+        camera: &Camera,
+        time: f64,
+        options: &FrameOptions,
+    ) -> Result<(Frame, Vec<Object>)> {
         if self.patch_count() == 0 {
             return Err(Error::scene("the scene has no patches", "add an [[object]] with geometry"));
         }
         check_options(options)?;
         self.check_colours()?;
+        self.check_looks()?;
         self.check_displacements(options)?;
         if !camera.is_usable(options.height) {
             return Err(Error::scene(
@@ -271,11 +341,15 @@ impl Scene {
         }
         let mut objects = Vec::with_capacity(self.objects.len());
         for object in &self.objects {
-            let placed = object.placed(camera);
+            let placed = object.placed(camera, time);
             check_extent(&placed, object)?;
             objects.push(placed);
         }
-        Ok((camera.frame(options, self.ambient, &self.lights), objects))
+        let mut frame = camera.frame(options, self.ambient, &self.lights);
+        if self.is_transparent() {
+            frame.flags |= FLAG_LAYERS;
+        }
+        Ok((frame, objects))
     }
 
     /// What of a scene does not.

@@ -14,7 +14,8 @@ use crate::generate::{self, Generator};
 use crate::gregory::GregoryPatch;
 use crate::image::linear_from_srgb;
 use crate::path::{CameraKey, CameraPath};
-use crate::scene::{BezierPatch, Scene, SceneObject};
+use crate::scene::{BezierPatch, Motion, Scene, SceneObject, rotation};
+use crate::shot::{Blur, DEFAULT_SENSOR, Lens};
 
 /// Most patches that the generators of a scene may make together.
 const MAX_GENERATED: u64 = 10_000_000;
@@ -44,6 +45,10 @@ struct CameraTable {
     up: Option<Vector>,
     fov: Spanned<f64>,
     near: Spanned<f64>,
+    shutter: Option<Spanned<f64>>,
+    fstop: Option<Spanned<f64>>,
+    focus: Option<Spanned<f64>>,
+    sensor: Option<Spanned<f64>>,
     #[serde(default)]
     key: Vec<Spanned<KeyTable>>,
 }
@@ -83,7 +88,17 @@ struct ObjectTable {
     colour: Option<Spanned<ColourValue>>,
     specular: Option<Spanned<f64>>,
     shininess: Option<Spanned<u32>>,
+    opacity: Option<Spanned<f64>>,
+    motion: Option<Spanned<MotionTable>>,
     displacement: Option<Spanned<DisplacementTable>>,
+}
+
+/// From one frame to the next.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotionTable {
+    translate: Option<Vector>,
+    rotate: Option<Vector>,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -162,6 +177,7 @@ fn parse(path: &Path, text: &str) -> Result<Scene> {
         name: path.display().to_string(),
         camera: at.camera(&table.camera)?,
         path: at.path(&table.camera)?,
+        blur: at.blur(&table.camera)?,
         background: at.colour(table.background.as_ref(), Vec3::ZERO)?,
         ambient: at.colour(table.ambient.as_ref(), Vec3::splat(0.1))?,
         lights: table.light.iter().map(|light| at.light(light)).collect::<Result<_>>()?,
@@ -242,6 +258,34 @@ impl Place<'_> {
         self.wrong(eye, "the camera looks nowhere, or straight along `up`", "move eye, target or up")
     }
 
+    /// Shutter and lens.
+    fn blur(&self, table: &Spanned<CameraTable>) -> Result<Blur> {
+        let CameraTable { shutter, fstop, focus, sensor, .. } = table.get_ref();
+        let shutter = shutter.as_ref().map_or(Ok(0.0), |s| self.number(s, "shutter", 0.0, 1.0e6))?;
+        let sensor =
+            sensor.as_ref().map_or(Ok(DEFAULT_SENSOR), |s| self.number(s, "sensor", 1.0e-9, 1.0e9))?;
+        let lens = match (fstop, focus) {
+            (None, None) => None,
+            (Some(fstop), Some(focus)) => {
+                let fstop = self.number(fstop, "fstop", 1.0e-6, 1.0e9)?;
+                Some(Lens { fstop, focus: self.number(focus, "focus", 1.0e-6, 1.0e12)? })
+            }
+            (Some(one), None) | (None, Some(one)) => {
+                let problem = "a lens needs both fstop and focus (the distance that is sharp)";
+                return Err(self.wrong(one, problem, "give both, or neither"));
+            }
+        };
+        Ok(Blur { shutter, lens, sensor })
+    }
+
+    /// How an object moves.
+    fn motion(&self, object: &ObjectTable) -> Result<Motion> {
+        let Some(table) = &object.motion else { return Ok(Motion::default()) };
+        let MotionTable { translate, rotate } = table.get_ref();
+        let vector = |value: &Option<Vector>| value.as_ref().map_or(Ok(DVec3::ZERO), |v| self.vector(v));
+        Ok(Motion { translate: vector(translate)?, rotate: vector(rotate)? })
+    }
+
     /// The camera's path, if it has keys.
     fn path(&self, table: &Spanned<CameraTable>) -> Result<Option<CameraPath>> {
         let camera = table.get_ref();
@@ -310,7 +354,8 @@ impl Place<'_> {
             let DisplacementTable { height, frequency, octaves } = *table.get_ref();
             Displacement { height: height as f32, frequency: frequency as f32, octaves }
         });
-        let made = SceneObject { patches, gregory, to_world, material, displacement };
+        let motion = self.motion(object)?;
+        let made = SceneObject { patches, gregory, to_world, material, displacement, motion };
         match (made.check_displacement(), &object.displacement) {
             (Err((problem, remedy)), Some(table)) => Err(self.wrong(table, problem, remedy)),
             _ => Ok(made),
@@ -425,7 +470,9 @@ impl Place<'_> {
             return Err(self.wrong(value, problem, "choose a power of two from 1 to 1024"));
         }
         let colour = self.colour(object.colour.as_ref(), Vec3::splat(0.6))?;
-        Ok(Material { colour, specular: specular as f32, gloss: shininess.trailing_zeros() })
+        let opacity = object.opacity.as_ref().map_or(Ok(1.0), |o| self.number(o, "opacity", 0.001, 1.0))?;
+        let (specular, opacity) = (specular as f32, opacity as f32);
+        Ok(Material { colour, specular, gloss: shininess.trailing_zeros(), opacity })
     }
 }
 
@@ -438,14 +485,4 @@ fn srgb(text: &str) -> Option<DVec3> {
         Some(linear_from_srgb(f64::from(value) / 255.0))
     };
     Some(DVec3::new(channel(0)?, channel(2)?, channel(4)?))
-}
-
-/// Turns by the given degrees about x, then y, then z.
-fn rotation(degrees: DVec3) -> DMat3 {
-    let turn = |axis: DVec3, degrees: f64| {
-        let (sine, cosine) = libm::sincos(degrees.to_radians());
-        let column = |v: DVec3| v * cosine + axis.cross(v) * sine + axis * axis.dot(v) * (1.0 - cosine);
-        DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
-    };
-    turn(DVec3::Z, degrees.z) * turn(DVec3::Y, degrees.y) * turn(DVec3::X, degrees.x)
 }

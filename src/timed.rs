@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use micropoly_core::abi::{Layout, Shared};
 use micropoly_core::backend::Device;
-use micropoly_core::stage::{Items, Stage};
+use micropoly_core::stage::{Extent, Items, Stage};
 use serde::Serialize;
 
 /// Wall time by stage, in seconds.
@@ -56,8 +56,8 @@ impl<D: Device> Device for Timed<'_, D> {
         self.device.max_buffer_bytes(layout)
     }
 
-    fn own_bytes(&self, width: u32, height: u32, rate: u32) -> u64 {
-        self.device.own_bytes(width, height, rate)
+    fn own_bytes(&self, extent: Extent) -> u64 {
+        self.device.own_bytes(extent)
     }
 
     fn write<T: Shared>(&mut self, buffer: &D::Buffer, data: &[T]) -> Result<(), D::Error> {
@@ -72,12 +72,17 @@ impl<D: Device> Device for Timed<'_, D> {
         self.device.copy(from, to, entries)
     }
 
+    fn clear(&mut self, buffer: &D::Buffer) -> Result<(), D::Error> {
+        self.device.clear(buffer)
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&D::Buffer]) -> Result<(), D::Error> {
         let start = Instant::now();
         let outcome = self.device.dispatch(stage, items, buffers);
         let seconds = match stage {
             Stage::Bound | Stage::Local => &mut self.seconds.bound,
-            Stage::Draw => &mut self.seconds.draw,
+            Stage::Draw | Stage::SortLast | Stage::Blend => &mut self.seconds.draw,
+            Stage::Filter => &mut self.seconds.resolve,
             _ => &mut self.seconds.split,
         };
         *seconds += start.elapsed().as_secs_f64();

@@ -6,7 +6,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use micropoly_core::abi::{Layout, Shared};
 
+use rayon::prelude::*;
+
 use crate::device::CpuError;
+
+/// Blocks that one thread clears at a time.
+const CLEAR_CHUNK: usize = 1 << 14;
 
 /// Storage unit: keeps every entry aligned.
 type Block = [u32; 4];
@@ -100,6 +105,14 @@ impl CpuBuffer {
         let bytes = bytes as usize;
         let source: &[u8] = bytemuck::cast_slice(&source);
         bytemuck::cast_slice_mut::<_, u8>(&mut target)[..bytes].copy_from_slice(&source[..bytes]);
+        Ok(())
+    }
+
+    /// Sets all bits to zero.
+    pub(crate) fn clear(&self, pool: &rayon::ThreadPool) -> Result<(), CpuError> {
+        let mut blocks = self.blocks.try_borrow_mut().map_err(|_| CpuError::InUse { buffer: self.name })?;
+        let blocks: &mut [Block] = &mut blocks;
+        pool.install(|| blocks.par_chunks_mut(CLEAR_CHUNK).for_each(|chunk| chunk.fill([0; 4])));
         Ok(())
     }
 

@@ -7,10 +7,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use micropoly_core::abi::{Layout, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::error::PlanError;
-use micropoly_core::stage::{Items, Stage};
+use micropoly_core::stage::{Extent, Items, Stage};
 
 use crate::buffer::CpuBuffer;
-use crate::{local, stages};
+use crate::draw::Steps;
+use crate::sort_last::{self, Keys};
+use crate::{draw, local, pixels, stages};
 
 /// What can go wrong on the CPU.
 #[derive(Debug)]
@@ -82,6 +84,9 @@ impl From<PlanError> for CpuError {
 pub struct CpuDevice {
     pool: rayon::ThreadPool,
     allocated: Arc<AtomicU64>,
+    /// Of the sort-last rasteriser.
+    keys: Keys,
+    steps: Option<Steps>,
 }
 
 impl CpuDevice {
@@ -94,7 +99,20 @@ impl CpuDevice {
             .num_threads(threads)
             .build()
             .map_err(|error| CpuError::Threads(error.to_string()))?;
-        Ok(Self { pool, allocated: Arc::default() })
+        let allocated = Arc::default();
+        Ok(Self { pool, keys: Keys::new(&allocated), allocated, steps: None })
+    }
+
+    /// From now on takes the time of each step of drawing.
+    pub fn time_steps(&mut self) {
+        self.steps = Some(Steps::default());
+    }
+
+    /// Milliseconds of all threads together that the steps of drawing took since they were last asked for: name and time;
+    /// nothing unless [`CpuDevice::time_steps`] was called.
+    #[must_use]
+    pub fn steps(&mut self) -> Vec<(&'static str, f64)> {
+        self.steps.as_mut().map(Steps::take).unwrap_or_default()
     }
 
     /// Number of threads.
@@ -134,6 +152,14 @@ impl Device for CpuDevice {
         to.copy(from, entries)
     }
 
+    fn own_bytes(&self, extent: Extent) -> u64 {
+        draw::own_bytes(&extent) + if extent.sort_last { sort_last::own_bytes(&extent) } else { 0 }
+    }
+
+    fn clear(&mut self, buffer: &CpuBuffer) -> Result<(), CpuError> {
+        buffer.clear(&self.pool)
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&CpuBuffer]) -> Result<(), CpuError> {
         let bindings = stage.bindings();
         if bindings.len() != buffers.len() {
@@ -153,7 +179,14 @@ impl Device for CpuDevice {
             (Stage::Local, Items::Groups(count)) => local::local(&self.pool, buffers, count),
             (Stage::Balance, _) => local::balance(buffers),
             (Stage::Deal, Items::Groups(count)) => local::deal(buffers, count),
-            (Stage::Draw, Items::Image { .. }) => stages::draw(&self.pool, threads, buffers),
+            (Stage::Draw, Items::Image(_)) => {
+                draw::draw(&self.pool, threads, buffers, self.steps.as_ref())
+            }
+            (Stage::SortLast, Items::Image(extent)) => {
+                sort_last::sort_last(&self.pool, buffers, &extent, &mut self.keys)
+            }
+            (Stage::Blend, Items::Count(count)) => pixels::blend(&self.pool, buffers, count),
+            (Stage::Filter, Items::Count(_)) => pixels::filter(&self.pool, buffers),
             (Stage::MeshPlaces, _) => stages::mesh_places(buffers),
             (Stage::Mesh, Items::Count(count)) => stages::mesh(&self.pool, buffers, count),
             (Stage::Flush, _) => stages::flush(buffers),

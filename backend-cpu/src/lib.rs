@@ -3,7 +3,10 @@
 
 mod buffer;
 mod device;
+mod draw;
 mod local;
+mod pixels;
+mod sort_last;
 mod stages;
 
 pub use buffer::CpuBuffer;

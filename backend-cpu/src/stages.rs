@@ -1,19 +1,16 @@
-//! Each stage as a loop over its function in core. Surfaces are bounded in chunks, drawn in bands of rows;
-//! a surface that touches several bands is diced in each of them, and every sample has one writer.
+//! Each stage as a loop over its function in core, but for those that draw (`draw.rs`, `sort_last.rs`) and those over
+//! samples and pixels (`pixels.rs`). Surfaces are bounded in chunks.
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
 use micropoly_core::abi::{
-    Colour, Control, Draw, Frame, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Sample,
-    Slot, Surface, Verdict,
+    Control, Draw, Frame, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Slot, Surface,
+    Verdict,
 };
 use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
 use micropoly_core::kernel::dice::Grid;
-use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::known_answers::answer as known_answer;
 use micropoly_core::kernel::mesh::{self, QUAD_INDICES};
-use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::scan::scan as scan_batch;
-use micropoly_core::kernel::shade::shade;
 use micropoly_core::kernel::split::{Outcome, split as split_one};
 use micropoly_core::kernel::take::{self as taking, member};
 use multiversion::multiversion;
@@ -24,8 +21,6 @@ use crate::device::CpuError;
 
 /// Surfaces that one thread bounds at a time.
 const BOUND_CHUNK: usize = 256;
-/// Bands of rows a thread: enough to share the work evenly, few enough that little is diced twice.
-const BANDS_A_THREAD: usize = 4;
 
 pub(crate) type Buffers<'a, 'b> = &'a [&'b CpuBuffer];
 
@@ -123,43 +118,6 @@ pub(crate) fn split(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
     Ok(())
 }
 
-pub(crate) fn draw(
-    pool: &rayon::ThreadPool,
-    threads: usize,
-    buffers: Buffers<'_, '_>,
-) -> Result<(), CpuError> {
-    let frame = buffers[0].view::<Frame>()?[0];
-    let objects = buffers[1].view::<Object>()?;
-    let patches = buffers[2].view::<Patch>()?;
-    let control = buffers[3].view::<Control>()?[0];
-    let draws = buffers[4].view::<Draw>()?;
-    let (mut samples, mut colours) = (buffers[5].view_mut::<Sample>()?, buffers[6].view_mut::<Colour>()?);
-    let scene = Scene {
-        frame: &frame,
-        objects: &objects,
-        patches: &patches,
-        draws: &draws[..(control.waiting + control.fresh) as usize],
-    };
-    if scene.draws.is_empty() {
-        return Ok(());
-    }
-    let bands = if threads == 1 { 1 } else { BANDS_A_THREAD * threads };
-    let rows = (frame.height as usize).div_ceil(bands);
-    let chunk = rows * frame.width as usize;
-    let (samples, colours) = (&mut *samples, &mut *colours);
-    pool.install(|| {
-        samples.par_chunks_mut(chunk).zip(colours.par_chunks_mut(chunk)).enumerate().for_each(
-            |(index, (samples, colours))| {
-                let first_row = (index * rows) as u32;
-                let height = (samples.len() / frame.width as usize) as u32;
-                let mut band = Band { width: frame.width, height, first_row, samples, colours };
-                draw_band(scene, &mut Grid::default(), &mut band);
-            },
-        );
-    });
-    Ok(())
-}
-
 pub(crate) fn mesh_places(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
     let control = buffers[0].view::<Control>()?[0];
     let draws = buffers[1].view::<Draw>()?;
@@ -214,33 +172,4 @@ fn mesh_one(
     mesh::dice_in_place(frame, objects, patches, draw, grid);
     mesh::mesh(draw, place, grid, &mut vertices, &mut indices);
     (vertices, indices)
-}
-
-/// What is to be drawn.
-#[derive(Clone, Copy)]
-struct Scene<'a> {
-    frame: &'a Frame,
-    objects: &'a [Object],
-    patches: &'a [Patch],
-    draws: &'a [Draw],
-}
-
-/// Dices, shades and samples all surfaces that can touch the band; the grid never leaves the cache.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2+bmi1+bmi2+lzcnt+popcnt",
-    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
-))]
-fn draw_band(scene: Scene<'_>, grid: &mut Grid, band: &mut Band<'_>) {
-    let (first_row, end_row) = band.rows();
-    for draw in scene.draws {
-        let (top, bottom) = draw.row_range();
-        if bottom <= first_row || top >= end_row {
-            continue;
-        }
-        let patch = &scene.patches[draw.patch_id as usize];
-        let object = &scene.objects[patch.object as usize];
-        dice_any(scene.frame, scene.patches, object, *draw, grid);
-        shade(scene.frame, object, grid);
-        sample(scene.frame, *draw, grid, band);
-    }
 }

@@ -9,9 +9,9 @@ use std::ops::RangeInclusive;
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_WEBER, Frame, Limits,
-    MAX_LEVELS, MAX_OCTAVES, MAX_RATE, MAX_SPLITS, MeshPlace, MeshTotals, MeshVertex, Object, PARAM_BITS,
-    PARAM_ONE, Patch, SPLIT_U, SPLIT_V, Sample, Shared, Slot, Surface, Verdict,
+    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_LAYERS, FLAG_SMOOTH, FLAG_WEBER, Frame,
+    Limits, MAX_LEVELS, MAX_OCTAVES, MAX_RATE, MAX_SPLITS, MeshPlace, MeshTotals, MeshVertex, OPAQUE_DEPTH, Object,
+    PARAM_BITS, PARAM_ONE, Patch, Pixel, SPLIT_U, SPLIT_V, Sample, Shared, Slot, Surface, Tap, Verdict,
 };
 use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::border::{SIDES, Side};
@@ -22,7 +22,9 @@ use micropoly_core::kernel::mesh;
 use micropoly_core::kernel::scan::scan;
 use micropoly_core::known::question;
 use micropoly_core::patch::gregory::INNER;
-use micropoly_core::stage::{Items, Stage};
+use micropoly_core::pattern::{Region, Samples, Window, tuples};
+use micropoly_core::reconstruction::{Filter, Kernel, MAX_TAPS};
+use micropoly_core::stage::{Extent, Items, Stage};
 
 use crate::stages::Input;
 
@@ -54,7 +56,9 @@ pub fn input(stage: Stage, round: u64) -> Input {
         Stage::Local => groups::local(&mut random),
         Stage::Balance => groups::balance(&mut random),
         Stage::Deal => groups::deal(&mut random),
-        Stage::Draw => draws(&mut random, round),
+        Stage::Draw | Stage::SortLast => draws(&mut random, round),
+        Stage::Blend => blends(&mut random),
+        Stage::Filter => filters(&mut random),
         Stage::MeshPlaces => mesh_places(&mut random),
         Stage::Mesh => meshes(&mut random),
         Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
@@ -78,6 +82,9 @@ const fn number(stage: Stage) -> u64 {
         Stage::Deal => 10,
         Stage::MeshPlaces => 11,
         Stage::Mesh => 12,
+        Stage::SortLast => 13,
+        Stage::Blend => 14,
+        Stage::Filter => 15,
     }
 }
 
@@ -168,10 +175,12 @@ fn view(random: &mut fastrand::Rng) -> (Frame, Vec<Object>) {
         cull_backfaces: random.bool(),
         whole: random.u8(0..6) == 0,
         profile: if random.u8(0..4) == 0 { Profile::Weber2014 } else { Profile::Conservative },
+        ..FrameOptions::default()
     };
     let frame = camera.frame(&options, Vec3::splat(0.1), &lights[..random.usize(0..=2)]);
     let object = |gloss: u32, specular: f32| {
-        camera.object(DAffine3::IDENTITY, &Material { colour: Vec3::new(0.8, 0.5, 0.2), specular, gloss })
+        let material = Material { colour: Vec3::new(0.8, 0.5, 0.2), specular, gloss, opacity: 1.0 };
+        camera.object(DAffine3::IDENTITY, &material)
     };
     (frame, vec![object(0, 0.0), object(random.u32(0..=10), 0.4)])
 }
@@ -484,6 +493,10 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     // Whatever is not culled is drawn, however large; but Weber's rules cull what is at the deepest level.
     frame.levels = if frame.flags & FLAG_WEBER == 0 { 1 } else { MAX_LEVELS };
     frame.bound = [4.0, 12.0, 40.0][random.usize(0..3)];
+    objects[1].opacity = [1.0, 0.25][random.usize(0..2)];
+    let (samples, region) = region(random, &frame);
+    frame = frame.with_region(region, [0, 4, 8, 16, 32][random.usize(0..5)]);
+    let places = frame.sample_count();
     // Fewer than there are tiles, some, more than are looked at at once.
     let most = [3, 60, 60, 200][random.usize(0..4)];
     let mut draws = Vec::new();
@@ -504,19 +517,107 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     let waiting = random.u32(0..=draws.len() as u32);
     let control = Control { waiting, fresh: draws.len() as u32 - waiting, ..Control::default() };
     draws.push(Draw::default());
-    let Frame { width, height, rate, .. } = frame;
-    let pixels = (width * height) as usize;
-    let before: Vec<Sample> = (0..pixels).map(|_| sample(random)).collect();
+    if random.u8(0..3) == 0 {
+        let tuple = tuples(samples).nth(random.usize(0..64)).unwrap_or_else(|| unreachable!("there are 64"));
+        frame = frame.with_tuple(samples, tuple);
+    }
+    frame.flags |= [0, FLAG_SMOOTH][random.usize(0..2)];
+    let is_layered = random.u8(0..3) == 0;
+    frame.flags |= if is_layered { FLAG_LAYERS } else { 0 };
+    let before: Vec<Sample> = (0..places).map(|_| sample(random)).collect();
+    let behind: Vec<Sample> = (0..if is_layered { places } else { 1 }).map(|_| layer(random)).collect();
     let buffers = vec![
         words(&[frame]),
         words(&objects),
         words(&patches),
         words(&[control]),
         words(&draws),
+        words(&behind),
         words(&before),
-        empty::<Colour>(pixels),
+        empty::<Colour>(places as usize),
     ];
-    (Items::Image { width, height, rate }, buffers)
+    (Items::Image(Extent::of(&frame, places)), buffers)
+}
+
+/// Any number of samples, and any part of the image.
+fn region(random: &mut fastrand::Rng, frame: &Frame) -> (Samples, Region) {
+    let part = |random: &mut fastrand::Rng, whole: u32| {
+        let first = random.u32(0..whole);
+        if random.bool() { (0, whole) } else { (first, random.u32(first + 1..=whole)) }
+    };
+    let ((left, right), (top, bottom)) = (part(random, frame.width), part(random, frame.height));
+    let window = Window { left, right, top, bottom };
+    let most = 40_000 / window.pixels().max(1) as u32;
+    let fitting = Samples::ALL.into_iter().filter(|samples| samples.count() <= most.max(1)).count();
+    let samples = Samples::ALL[random.usize(0..fitting)];
+    let ((left, right), (top, bottom)) = (part(random, window.width()), part(random, window.height()));
+    let shown = Window {
+        left: window.left + left,
+        right: window.left + right,
+        top: window.top + top,
+        bottom: window.top + bottom,
+    };
+    (samples, Region { samples, window, shown })
+}
+
+/// The last layer that was found at a sample: none, one at any depth, or the last of all.
+fn layer(random: &mut fastrand::Rng) -> Sample {
+    match random.u8(0..4) {
+        0 => Sample { depth: OPAQUE_DEPTH, ..sample(random) },
+        1 => Sample::default(),
+        _ => Sample { depth: (random.f32() * 2.0).to_bits(), patch_id: random.u32(0..24), u: 77, v: 99 },
+    }
+}
+
+fn colour(random: &mut fastrand::Rng) -> Colour {
+    let mut any = || random.f32() * 1.5;
+    Colour { rgba: [any(), any(), any(), [0.25, 0.7, 1.0][random.usize(0..3)]] }
+}
+
+fn blends(random: &mut fastrand::Rng) -> Parts {
+    let count = [1, 63, 1000][random.usize(0..3)];
+    let mut all = |make: fn(&mut fastrand::Rng) -> Sample| -> Vec<Sample> {
+        (0..count).map(|_| make(random)).collect()
+    };
+    let (samples, behind, front) = (all(sample), all(layer), all(sample));
+    let opacity = [0.4, 1.0][random.usize(0..2)];
+    let mut colours = |least: f32| -> Vec<Colour> {
+        (0..count)
+            .map(|_| {
+                let Colour { rgba: [r, g, b, a] } = colour(random);
+                Colour { rgba: [r, g, b, a.max(least)] }
+            })
+            .collect()
+    };
+    // Now and then all is opaque, so that nothing follows.
+    let (found, layers) = (colours(opacity), colours(0.0));
+    let buffers =
+        vec![words(&samples), words(&found), words(&behind), words(&front), words(&layers), empty::<u32>(1)];
+    (Items::Count(count), buffers)
+}
+
+fn filters(random: &mut fastrand::Rng) -> Parts {
+    let (frame, _, _) = scene(random);
+    let (samples, region) = region(random, &frame);
+    let mut frame = frame.with_region(region, 0);
+    let kernel = Kernel::ALL[random.usize(0..Kernel::ALL.len())];
+    let radius = [kernel.usual_radius(), 0.5, 1.0 + random.f64() * 1.5][random.usize(0..3)];
+    let mut taps = vec![Tap::default(); MAX_TAPS];
+    frame.taps = Filter { kernel, radius }.taps(samples, &mut taps) as u32;
+    taps.truncate(frame.taps as usize);
+    let places = frame.sample_count() as usize;
+    let found: Vec<Sample> = (0..places).map(|_| sample(random)).collect();
+    // Where nothing is, a colour means nothing.
+    let colours: Vec<Colour> = (0..places).map(|_| colour(random)).collect();
+    let pixels = frame.shown_count();
+    let buffers = vec![
+        words(&[frame]),
+        words(&taps),
+        words(&found),
+        words(&colours),
+        empty::<Pixel>(pixels.max(1) as usize),
+    ];
+    (Items::Count(pixels as u32), buffers)
 }
 
 /// Draws of any patches, at any rates, and where they lie in a mesh behind `before`.

@@ -2,12 +2,14 @@
 
 use std::fmt;
 
-use micropoly_core::abi::{Colour, Frame, Object, Patch, Sample};
+use micropoly_core::abi::{Colour, Frame, Object, Patch, Pixel, Sample, Tap};
 use micropoly_core::backend::Device;
 use micropoly_core::error::PlanError;
-use micropoly_core::memory::{Sizes, stack_min};
+use micropoly_core::memory::{Area, Sizes, stack_min};
 use micropoly_core::patch::gregory::patch_count;
-use micropoly_core::render::{Buffers, FramePlan};
+use micropoly_core::pattern::Samples;
+use micropoly_core::reconstruction::{Filter, MAX_TAPS};
+use micropoly_core::render::{Buffers, Counts, FramePlan};
 use micropoly_core::schedule::Scheduler;
 use serde::Serialize;
 
@@ -40,9 +42,26 @@ impl Case {
         let patches = patch_count(&self.patches);
         let faces = count(self.patches.len() - patches);
         let (patches, objects) = (count(patches), count(self.objects.len()));
-        let Frame { levels, width, height, .. } = self.frame;
-        let sizes = Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height };
-        FramePlan::with_sizes(self.frame, sizes)
+        let frame = self.filtered();
+        let Frame { levels, width, height, .. } = frame;
+        let area = Area::of(&frame);
+        let sizes =
+            Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height, area };
+        FramePlan::with_sizes(frame, sizes)
+    }
+
+    /// The samples that a pixel is made of, by the default filter.
+    fn taps(&self) -> Vec<Tap> {
+        let count = 1 << (2 * self.frame.pattern_bits);
+        let mut taps = vec![Tap::default(); MAX_TAPS];
+        let count = Filter::default().taps(Samples::of_count(count).unwrap_or_default(), &mut taps);
+        taps.truncate(count);
+        taps
+    }
+
+    /// Its frame, with the default filter.
+    fn filtered(&self) -> Frame {
+        Frame { taps: self.taps().len() as u32, ..self.frame }
     }
 }
 
@@ -99,10 +118,12 @@ impl fmt::Display for Schedule {
 /// What must be equal on every device, for every batch and number of threads.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Outcome {
-    /// Hash of all samples: depth and identity.
+    /// Hash of all samples, depth and identity; of the first layer where things can be seen through.
     pub samples: String,
-    /// Hash of all colours, before they are rounded to pixels.
+    /// Hash of all colours, before they are filtered.
     pub colours: String,
+    /// Hash of all pixels, filtered.
+    pub pixels: String,
     /// Samples that something covers.
     pub covered: u64,
     /// Stands for the set of surfaces that were diced, and the pixels they could touch.
@@ -136,15 +157,12 @@ pub fn run_scheduled<D: Device>(
     case: &Case,
     schedule: Schedule,
 ) -> Result<Outcome, D::Error> {
-    let plan = case.plan(schedule)?;
-    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
-    let mut witness = Witness::new(device);
-    let counts = plan.run(&mut witness, &mut buffers, |_| {})?;
-    let drawn_set = witness.drawn_set();
-    let (samples, covered) = hash_samples(device, &buffers, plan.sizes().pixels())?;
+    let (plan, buffers, found) = render(device, case, schedule)?;
+    let Found { counts, drawn_set, samples, covered, colours } = found;
     Ok(Outcome {
         samples,
-        colours: hash_colours(device, &buffers, plan.sizes().pixels())?,
+        colours,
+        pixels: hash_pixels(device, &buffers, plan.sizes().area.pixels)?,
         covered,
         drawn_set,
         processed: counts.processed,
@@ -153,6 +171,35 @@ pub fn run_scheduled<D: Device>(
         depth_limited: counts.depth_limited,
         micropolygons: counts.micropolygons,
     })
+}
+
+/// What is to be known before layers are put together.
+pub(crate) struct Found {
+    counts: Counts,
+    drawn_set: String,
+    samples: String,
+    covered: u64,
+    colours: String,
+}
+
+/// Renders a case down to its pixels.
+pub(crate) fn render<D: Device>(
+    device: &mut D,
+    case: &Case,
+    schedule: Schedule,
+) -> Result<(FramePlan, Buffers<D::Buffer>, Found), D::Error> {
+    let plan = case.plan(schedule)?;
+    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
+    let mut witness = Witness::new(device);
+    let mut counts = plan.run(&mut witness, &mut buffers, |_| {})?;
+    let drawn_set = witness.drawn_set();
+    let (samples, covered) = hash_samples(device, &buffers, plan.sizes().area.samples)?;
+    let colours = hash_colours(device, &buffers, plan.sizes().area.samples)?;
+    while plan.sizes().area.layered && plan.blend(device, &buffers)? {
+        counts = counts.and(plan.run(device, &mut buffers, |_| {})?);
+    }
+    plan.filter(device, &buffers, &case.taps())?;
+    Ok((plan, buffers, Found { counts, drawn_set, samples, covered, colours }))
 }
 
 fn hash_samples<D: Device>(
@@ -173,6 +220,23 @@ fn hash_samples<D: Device>(
         }
     }
     Ok((hasher.finalize().to_hex().to_string(), covered))
+}
+
+fn hash_pixels<D: Device>(
+    device: &mut D,
+    buffers: &Buffers<D::Buffer>,
+    pixels: u64,
+) -> Result<String, D::Error> {
+    let mut hasher = blake3::Hasher::new();
+    let mut block = vec![Pixel::default(); BLOCK];
+    for first in (0..pixels).step_by(BLOCK) {
+        let block = &mut block[..BLOCK.min((pixels - first) as usize)];
+        device.read(&buffers.pixels, first, block)?;
+        for word in bytemuck::cast_slice::<_, u32>(block) {
+            hasher.update(&word.to_le_bytes());
+        }
+    }
+    Ok(hasher.finalize().to_hex().to_string())
 }
 
 fn hash_colours<D: Device>(

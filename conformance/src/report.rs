@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use micropoly_core::abi::Colour;
+use micropoly_core::abi::Pixel;
 use micropoly_core::backend::Device;
 use micropoly_core::memory::DEFAULT_BATCH;
 use micropoly_core::stage::Stage;
 use serde::Serialize;
 
 use crate::corpus;
-use crate::outcome::{Case, Outcome, Schedule, run, run_scheduled};
+use crate::outcome::{Case, Outcome, Schedule, render, run, run_scheduled};
 use crate::stages::{Difference, first_difference, run_stage};
 
 /// How one stage fared.
@@ -123,15 +123,13 @@ pub fn check_case<R: Device, D: Device>(
     Ok(CaseReport { case: case.name.clone(), schedule: schedule.to_string(), expected, found, error })
 }
 
-/// All colours of a case, row after row: for pictures of what differs.
+/// All pixels of a case, row after row: for pictures of what differs.
 ///
 /// # Errors
 /// What the plan or the device reports.
-pub fn colours<D: Device>(device: &mut D, case: &Case, schedule: Schedule) -> Result<Vec<Colour>, D::Error> {
-    let plan = case.plan(schedule)?;
-    let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
-    plan.run(device, &mut buffers, |_| {})?;
-    let mut colours = vec![Colour::default(); plan.sizes().pixels() as usize];
-    device.read(&buffers.colours, 0, &mut colours)?;
-    Ok(colours)
+pub fn pixels<D: Device>(device: &mut D, case: &Case, schedule: Schedule) -> Result<Vec<Pixel>, D::Error> {
+    let (plan, buffers, _) = render(device, case, schedule)?;
+    let mut pixels = vec![Pixel::default(); plan.sizes().area.pixels as usize];
+    device.read(&buffers.pixels, 0, &mut pixels)?;
+    Ok(pixels)
 }

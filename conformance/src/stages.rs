@@ -4,7 +4,7 @@ use std::fmt;
 
 use micropoly_core::abi::{
     Colour, Control, Draw, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch,
-    Question, Sample, Scalar, Shared, Slot, Surface, Verdict,
+    Pixel, Question, Sample, Scalar, Shared, Slot, Surface, Tap, Verdict,
 };
 use micropoly_core::backend::Device;
 use micropoly_core::stage::{Access, Items, Stage};
@@ -98,7 +98,7 @@ fn transfer<D: Device>(
     }
     by_name!(
         u32, Patch, Object, Frame, Surface, Draw, Verdict, Slot, Control, Group, Question, Limits, Sample,
-        Colour, MeshVertex, MeshPlace, MeshTotals
+        Colour, MeshVertex, MeshPlace, MeshTotals, Tap, Pixel
     )
 }
 

@@ -32,7 +32,7 @@ const FOUND: &str = "\nfound: ";
 /// No mutant is ever seen again.
 const NO_CACHES: [(&str, &str); 2] = [("POCL_KERNEL_CACHE", "0"), ("MESA_SHADER_CACHE_DISABLE", "true")];
 /// Stages that are opened together, those first that are compiled and run soonest.
-const QUICK_TO_SLOW: [&[Stage]; 5] = [
+const QUICK_TO_SLOW: [&[Stage]; 6] = [
     &[
         Stage::Take,
         Stage::Flush,
@@ -42,11 +42,14 @@ const QUICK_TO_SLOW: [&[Stage]; 5] = [
         Stage::Deal,
         Stage::MeshPlaces,
         Stage::KnownAnswers,
+        Stage::Blend,
+        Stage::Filter,
     ],
     &[Stage::Bound],
     &[Stage::Mesh],
     &[Stage::Local],
     &[Stage::Draw],
+    &[Stage::SortLast],
 ];
 
 /// Gives a kernel file's name and source, takes the source to be built.

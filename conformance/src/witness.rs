@@ -2,7 +2,7 @@
 
 use micropoly_core::abi::{Control, Draw, Layout, Shared};
 use micropoly_core::backend::Device;
-use micropoly_core::stage::{Items, Stage};
+use micropoly_core::stage::{Extent, Items, Stage};
 
 /// Passes everything on to a device; before a draw it reads what is to be drawn.
 pub(crate) struct Witness<'a, D> {
@@ -53,8 +53,8 @@ impl<D: Device> Device for Witness<'_, D> {
         self.device.max_buffer_bytes(layout)
     }
 
-    fn own_bytes(&self, width: u32, height: u32, rate: u32) -> u64 {
-        self.device.own_bytes(width, height, rate)
+    fn own_bytes(&self, extent: Extent) -> u64 {
+        self.device.own_bytes(extent)
     }
 
     fn write<T: Shared>(&mut self, buffer: &D::Buffer, data: &[T]) -> Result<(), D::Error> {
@@ -69,8 +69,12 @@ impl<D: Device> Device for Witness<'_, D> {
         self.device.copy(from, to, entries)
     }
 
+    fn clear(&mut self, buffer: &D::Buffer) -> Result<(), D::Error> {
+        self.device.clear(buffer)
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&D::Buffer]) -> Result<(), D::Error> {
-        if stage == Stage::Draw {
+        if matches!(stage, Stage::Draw | Stage::SortLast) {
             self.note(buffers[3], buffers[4])?;
         }
         self.device.dispatch(stage, items, buffers)

@@ -160,6 +160,19 @@ shared_constants! {
     /// Bit of [`Frame::flags`]: nothing is culled or cut off, for a mesh that is whole; what is out of view gets as
     /// fine as if the camera had turned to it.
     const FLAG_WHOLE: u32 = 16;
+    /// Bit of [`Frame::flags`]: a colour is interpolated between the vertices of its micropolygon (Gouraud 1971), else it is
+    /// their mean.
+    const FLAG_SMOOTH: u32 = 32;
+    /// Bit of [`Frame::flags`]: something can be seen through, so what is visible is found layer by layer.
+    const FLAG_LAYERS: u32 = 64;
+    /// Bit of [`Frame::flags`]: draws are sampled one by one ([`crate::stage::Stage::SortLast`]), not tile by tile.
+    const FLAG_SORT_LAST: u32 = 128;
+    /// Log2 of the sample columns (and rows) of a pixel, at most.
+    const MAX_PATTERN_BITS: u32 = 3;
+    /// Samples of a pixel, at most.
+    const MAX_SAMPLES: u32 = 1 << (2 * MAX_PATTERN_BITS);
+    /// [`Sample::depth`] behind which there is nothing: of a sample through which nothing can be seen any more.
+    const OPAQUE_DEPTH: u32 = 1;
     /// Weber profile: nothing farther than this is drawn.
     const WEBER_FAR: f32 = 1000.0;
     /// Weber profile: pixels around the image in which surfaces are kept.
@@ -328,6 +341,8 @@ shared_structs! {
         frequency: f32,
         /// How often bumps are added, twice as fine and half as high as the last.
         octaves: u32,
+        /// Share of what is behind it that it hides, above 0; 1 = all.
+        opacity: f32,
         /// Turns normals from object space to eye space, 3 rows of 3: the transform's cofactors, scaled.
         normal_to_eye: [f32; 9],
     }
@@ -369,6 +384,80 @@ shared_structs! {
         light_vector: [[f32; 4]; MAX_LIGHTS],
         /// A light each: intensity, linear RGB.
         light_colour: [[f32; 3]; MAX_LIGHTS],
+
+        /// First column of pixels that is sampled: surfaces beside these columns and rows are culled.
+        left: u32,
+        /// One past the last column of pixels that is sampled.
+        right: u32,
+        /// First row of pixels that is sampled.
+        top: u32,
+        /// One past the last row of pixels that is sampled.
+        bottom: u32,
+        /// First column of samples. Samples lie in columns and rows, each somewhere in its own field of a square grid
+        /// (see [`crate::pattern`]).
+        sample_left: u32,
+        /// One past the last column of samples.
+        sample_right: u32,
+        /// First row of samples.
+        sample_top: u32,
+        /// One past the last row of samples.
+        sample_bottom: u32,
+        /// Log2 of the snapped units from a column of samples to the next.
+        pitch_bits: u32,
+        /// Log2 of the columns (and rows) after which the pattern of samples repeats itself.
+        pattern_bits: u32,
+        /// Of each sample of the pattern, row after row: snapped units from the start of its field, to the right.
+        sample_x: [i32; MAX_SAMPLES as usize],
+        /// Of each sample of the pattern: snapped units from the start of its field, downwards.
+        sample_y: [i32; MAX_SAMPLES as usize],
+        /// The least of all `sample_x` and `sample_y`.
+        least_offset: i32,
+        /// The largest of them.
+        most_offset: i32,
+        /// Place of the first sample in the buffers of samples.
+        place_first: u32,
+        /// Places from a column of samples to the next.
+        place_column: u32,
+        /// Places from a row of samples to the next.
+        place_row: u32,
+        /// Log2 of the columns (and rows) of samples of a tile; 0 = as the device likes it.
+        tile_bits: u32,
+        /// First column of pixels that is filtered (see [`crate::kernel::filter`]).
+        shown_left: u32,
+        /// One past the last.
+        shown_right: u32,
+        /// First row of pixels that is filtered.
+        shown_top: u32,
+        /// One past the last.
+        shown_bottom: u32,
+        /// Samples that a pixel is made of.
+        taps: u32,
+    }
+
+    /// A sample that a pixel is made of.
+    struct Tap {
+        /// Its share of the pixel; all shares together are 1.
+        weight: f32,
+        /// Columns of samples from the pixel's first.
+        column: i32,
+        /// Rows of samples from the pixel's first.
+        row: i32,
+    }
+
+    /// A pixel, filtered.
+    struct Pixel {
+        /// Linear RGB, times coverage; and coverage.
+        rgba: [f32; 4],
+        /// The nearest of the pixel's own samples, as in [`Sample`].
+        depth: u32,
+        /// Its patch.
+        patch_id: u32,
+        /// Its u.
+        u: u32,
+        /// Its v.
+        v: u32,
+        /// So many of the pixel's own samples show something.
+        covered: u32,
     }
 
     /// A sub-surface: patch and dyadic parameter range (see [`crate::surface`]).
@@ -552,15 +641,15 @@ shared_structs! {
         depth: u32,
         /// Patch of the micropolygon.
         patch_id: u32,
-        /// Which micropolygon of its surface: the surface's low `u`, and a sixteenth of its size a column.
+        /// Low `u` of the micropolygon in units of 2⁻²⁴.
         u: u32,
-        /// The surface's low `v`, and a sixteenth of its size a row.
+        /// Low `v` of the micropolygon in units of 2⁻²⁴.
         v: u32,
     }
 
     /// Colour of one sample. All zero: nothing there.
     struct Colour {
-        /// Linear RGB and coverage.
+        /// Linear RGB, and opacity.
         rgba: [f32; 4],
     }
 }

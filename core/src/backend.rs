@@ -5,7 +5,7 @@
 
 use crate::abi::{Layout, Shared};
 use crate::error::PlanError;
-use crate::stage::{Items, Stage};
+use crate::stage::{Extent, Items, Stage};
 
 /// A device that can run the stages.
 pub trait Device {
@@ -33,9 +33,8 @@ pub trait Device {
         u64::MAX
     }
 
-    /// Bytes that the device needs for itself, beside the plan's buffers, to draw an image of this width and
-    /// height in pixels with this dice rate.
-    fn own_bytes(&self, _width: u32, _height: u32, _rate: u32) -> u64 {
+    /// Bytes that the device needs for itself, beside the plan's buffers, to draw a frame.
+    fn own_bytes(&self, _extent: Extent) -> u64 {
         0
     }
 
@@ -62,6 +61,12 @@ pub trait Device {
     /// # Errors
     /// When a buffer is too small or the layouts differ, or the device failed.
     fn copy(&mut self, from: &Self::Buffer, to: &Self::Buffer, entries: u64) -> Result<(), Self::Error>;
+
+    /// Sets all bits of a buffer to zero, after all stages dispatched so far.
+    ///
+    /// # Errors
+    /// When the device failed.
+    fn clear(&mut self, buffer: &Self::Buffer) -> Result<(), Self::Error>;
 
     /// Runs a stage over its buffers, given in the order of [`Stage::bindings`], after all stages
     /// dispatched before it.

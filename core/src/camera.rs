@@ -3,9 +3,10 @@
 //! Trigonometry comes from `libm`, so that a scene gives the same bits on every platform.
 
 use crate::abi::{
-    FLAG_CULL_BACKFACES, FLAG_FIXED, FLAG_NAIVE, FLAG_WEBER, FLAG_WHOLE, Frame, MAX_FOCAL, MAX_LEVELS,
-    MAX_LIGHTS, MIN_NEAR, Object,
+    FLAG_CULL_BACKFACES, FLAG_FIXED, FLAG_NAIVE, FLAG_SMOOTH, FLAG_SORT_LAST, FLAG_WEBER, FLAG_WHOLE, Frame, MAX_FOCAL,
+    MAX_LEVELS, MAX_LIGHTS, MIN_NEAR, Object,
 };
+use crate::pattern::{Region, Samples};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// A perspective camera.
@@ -47,6 +48,8 @@ pub struct Material {
     pub specular: f32,
     /// The highlight is `cosine^(2^gloss)`.
     pub gloss: u32,
+    /// Share of what is behind it that it hides: above 0, to 1 = all.
+    pub opacity: f32,
 }
 
 /// Rules by which surfaces are culled, split and drawn.
@@ -109,6 +112,65 @@ impl Borders {
     }
 }
 
+/// From where a colour comes within a micropolygon.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// It is the mean of the vertices' colours.
+    #[default]
+    Flat,
+    /// It is interpolated between them (Gouraud 1971); where a micropolygon is clipped it is their mean.
+    Smooth,
+}
+
+impl Shading {
+    /// Its name, on the command line and in statistics.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Flat => "flat",
+            Self::Smooth => "smooth",
+        }
+    }
+
+    const fn flag(self) -> u32 {
+        match self {
+            Self::Flat => 0,
+            Self::Smooth => FLAG_SMOOTH,
+        }
+    }
+}
+
+/// How grids get to their samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rasteriser {
+    /// Sorted into tiles, whose samples are found together ([`crate::stage::Stage::Draw`]).
+    #[default]
+    SortMiddle,
+    /// One by one, merged without locks ([`crate::stage::Stage::SortLast`]).
+    SortLast,
+}
+
+impl Rasteriser {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::SortMiddle, Self::SortLast];
+
+    /// Its name, on the command line and in statistics.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SortMiddle => "sort-middle",
+            Self::SortLast => "sort-last",
+        }
+    }
+
+    const fn flag(self) -> u32 {
+        match self {
+            Self::SortMiddle => 0,
+            Self::SortLast => FLAG_SORT_LAST,
+        }
+    }
+}
+
 /// How a frame is to be rendered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
@@ -132,6 +194,15 @@ pub struct FrameOptions {
     pub whole: bool,
     /// Rules by which surfaces are culled, split and drawn.
     pub profile: Profile,
+    /// Samples of a pixel.
+    pub samples: Samples,
+    /// From where a colour comes within a micropolygon.
+    pub shading: Shading,
+    /// How grids get to their samples. The image does not depend on it.
+    pub rasteriser: Rasteriser,
+    /// Pixels a side of a tile of the sort-middle rasteriser: a power of two from 4 to 32; 0 = as the device likes it. The
+    /// image does not depend on it.
+    pub tile: u32,
 }
 
 impl Default for FrameOptions {
@@ -147,6 +218,10 @@ impl Default for FrameOptions {
             cull_backfaces: false,
             whole: false,
             profile: Profile::Conservative,
+            samples: Samples::One,
+            shading: Shading::Flat,
+            rasteriser: Rasteriser::SortMiddle,
+            tile: 0,
         }
     }
 }
@@ -161,7 +236,8 @@ impl FrameOptions {
     const fn flags(&self) -> u32 {
         let backfaces = if self.cull_backfaces { FLAG_CULL_BACKFACES } else { 0 };
         let whole = if self.whole { FLAG_WHOLE } else { 0 };
-        self.profile.flag() | self.borders.flag() | backfaces | whole
+        let own = self.shading.flag() | self.rasteriser.flag();
+        self.profile.flag() | self.borders.flag() | backfaces | whole | own
     }
 }
 
@@ -216,7 +292,7 @@ impl Camera {
             (frame.light_vector[index], frame.light_colour[index]) = self.light(light);
             frame.light_count = index as u32 + 1;
         }
-        frame
+        frame.with_region(Region::whole(options.width, options.height, options.samples), options.tile)
     }
 
     /// See [`Frame::around`]: the reciprocal of the largest slope in view, or a little less.
@@ -247,7 +323,7 @@ impl Camera {
             }
             rows[4 * row + 3] = to_eye.translation[row] as f32;
         }
-        let Material { colour, specular, gloss } = *material;
-        Object { to_eye: rows, colour: colour.to_array(), specular, gloss, ..Object::default() }
+        let Material { colour, specular, gloss, opacity } = *material;
+        Object { to_eye: rows, colour: colour.to_array(), specular, gloss, opacity, ..Object::default() }
     }
 }

@@ -15,7 +15,10 @@
 //! | the same for a Gregory patch | [`kernel::dice_gregory::dice_gregory`] | `kernel/dice_gregory.rs`, `patch/gregory.rs` |
 //! | the same where vertices are displaced | [`kernel::displace::dice_displaced`] | `kernel/displace.rs`, `patch/owner.rs` |
 //! | a colour a vertex | [`kernel::shade::shade`] | `kernel/shade.rs` |
-//! | micropolygons become samples | [`kernel::sample::sample`] | `kernel/sample.rs` |
+//! | where samples lie, in space, in time and on the lens | [`abi::Frame::with_region`] | `pattern.rs` |
+//! | micropolygons become samples | [`kernel::sample::sample`] | `kernel/sample.rs`, `kernel/dense.rs` |
+//! | layers that can be seen through are put together | [`kernel::blend::blend`] | `kernel/blend.rs` |
+//! | samples become pixels | [`kernel::filter::filter`] | `kernel/filter.rs`, `reconstruction.rs` |
 //! | who calls what, in which order | [`schedule::Bounded`], [`render::FramePlan`] | `schedule/`, `render.rs` |
 //! | how much memory that can ever need | [`memory`] | `memory.rs` |
 //! | does a device compute as it must | [`known::check`] | `known.rs`, `kernel/known_answers.rs` |
@@ -36,6 +39,8 @@ pub mod known;
 pub mod memory;
 pub mod num;
 pub mod patch;
+pub mod pattern;
+pub mod reconstruction;
 pub mod render;
 pub mod schedule;
 pub mod stage;

@@ -6,8 +6,8 @@
 //! that wait are counted, not stored, so `n` has no part in it. `docs/proofs/stack.md` has the proof.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Group, LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Limits, MAX_LEVELS,
-    MAX_RESOLUTION, Object, Patch, Sample, Slot, Surface, Verdict,
+    Colour, Control, Draw, FLAG_LAYERS, Frame, Group, LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Limits, MAX_LEVELS,
+    MAX_RESOLUTION, Object, Patch, Pixel, Sample, Slot, Surface, Tap, Verdict,
 };
 use crate::error::PlanError;
 use crate::schedule::Scheduler;
@@ -96,6 +96,65 @@ pub struct Sizes {
     pub width: u32,
     /// Image height in pixels.
     pub height: u32,
+    /// What of the image is worked on at once; set from the frame.
+    pub area: Area,
+}
+
+/// Buffers of the part of an image that is worked on at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Area {
+    /// Samples.
+    pub samples: u64,
+    /// Pixels that are shown.
+    pub pixels: u64,
+    /// Samples that a pixel is made of.
+    pub taps: u32,
+    /// Can anything be seen through?
+    pub layered: bool,
+}
+
+impl Area {
+    /// Of a frame.
+    #[must_use]
+    pub const fn of(frame: &Frame) -> Self {
+        Self {
+            samples: frame.sample_count(),
+            pixels: frame.shown_count(),
+            taps: frame.taps,
+            layered: frame.flags & FLAG_LAYERS != 0,
+        }
+    }
+
+    /// As much as this or another area needs.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        const fn larger(a: u64, b: u64) -> u64 {
+            if a > b { a } else { b }
+        }
+        Self {
+            samples: larger(self.samples, other.samples),
+            pixels: larger(self.pixels, other.pixels),
+            taps: larger(self.taps as u64, other.taps as u64) as u32,
+            layered: self.layered || other.layered,
+        }
+    }
+
+    /// Entries of each buffer that only layers need; one if nothing can be seen through.
+    #[must_use]
+    pub const fn layer_entries(&self) -> u64 {
+        if self.layered { self.samples } else { 1 }
+    }
+
+    /// Bytes of all its buffers.
+    #[must_use]
+    pub const fn bytes(&self) -> u64 {
+        let (sample, colour) = (size_of::<Sample>() as u64, size_of::<Colour>() as u64);
+        self.samples * (sample + colour)
+            + self.layer_entries() * (2 * sample + colour)
+            + self.pixels * size_of::<Pixel>() as u64
+            + self.taps as u64 * size_of::<Tap>() as u64
+            + size_of::<u32>() as u64
+    }
 }
 
 impl Sizes {
@@ -228,18 +287,13 @@ impl Sizes {
         self.draws_at_once() * self.batches_a_draw() as u64
     }
 
-    /// Samples of the image.
-    #[must_use]
-    pub const fn pixels(&self) -> u64 {
-        self.width as u64 * self.height as u64
-    }
 
-    /// Bytes of everything that does not depend on batch and scheduler: scene and image.
+    /// Bytes of everything that does not depend on batch and scheduler: scene, and what of the image is worked on.
     #[must_use]
     pub const fn fixed_bytes(&self) -> u64 {
         self.patch_bytes()
             + self.objects as u64 * size_of::<Object>() as u64
-            + self.pixels() * (size_of::<Sample>() + size_of::<Colour>()) as u64
+            + self.area.bytes()
             + (size_of::<Frame>() + size_of::<Control>() + size_of::<Limits>()) as u64
     }
 
@@ -276,8 +330,9 @@ impl Sizes {
     const fn largest_buffer(&self) -> (&'static str, u64) {
         let all = [
             ("objects", self.objects as u64 * size_of::<Object>() as u64),
-            ("samples", self.pixels() * size_of::<Sample>() as u64),
-            ("colours", self.pixels() * size_of::<Colour>() as u64),
+            ("samples", self.area.samples * size_of::<Sample>() as u64),
+            ("colours", self.area.samples * size_of::<Colour>() as u64),
+            ("pixels", self.area.pixels * size_of::<Pixel>() as u64),
             ("stack", self.stack_entries() * size_of::<Surface>() as u64),
             ("draws", self.draw_entries() * size_of::<Draw>() as u64),
             ("batch", self.batch_entries() * size_of::<Surface>() as u64),

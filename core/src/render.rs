@@ -1,14 +1,14 @@
 //! One frame as a plan: buffers, uploads and the order of stages, on any device.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Group, Layout, Limits, Object, Patch, Sample, Shared, Slot, Surface,
-    Verdict,
+    Colour, Control, Draw, Frame, Group, Layout, Limits, Object, Patch, Pixel, Sample, Shared, Slot, Surface,
+    Tap, Verdict,
 };
 use crate::backend::Device;
 use crate::error::PlanError;
-use crate::memory::{MAX_STACK, Sizes};
+use crate::memory::{Area, MAX_STACK, Sizes};
 use crate::schedule::{Bounded, Scheduler, Step};
-use crate::stage::{Items, Stage};
+use crate::stage::{Extent, Items, Stage};
 
 /// What a frame counted. Independent of device, batch and threads, but for `max_stack`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,6 +57,22 @@ impl Load {
 }
 
 impl Counts {
+    /// Those of this run and those of another one, of the same scene.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            processed: self.processed + other.processed,
+            drawn: self.drawn + other.drawn,
+            culled: self.culled + other.culled,
+            depth_limited: self.depth_limited + other.depth_limited,
+            micropolygons: self.micropolygons + other.micropolygons,
+            max_stack: self.max_stack.max(other.max_stack),
+            roots_taken: self.roots_taken + other.roots_taken,
+            batches: self.batches + other.batches,
+            load: other.load.or(self.load),
+        }
+    }
+
     fn add(&mut self, control: &Control) {
         self.processed += u64::from(control.processed);
         self.drawn += u64::from(control.drawn);
@@ -88,6 +104,13 @@ pub struct Buffers<B> {
     pub samples: B,
     /// Its colour.
     pub colours: B,
+    behind: B,
+    front: B,
+    layers: B,
+    more: B,
+    taps: B,
+    /// Pixels, row after row from the top; written by [`FramePlan::filter`].
+    pub pixels: B,
 }
 
 /// A frame to be rendered: its sizes are checked, its memory is known.
@@ -109,19 +132,21 @@ impl FramePlan {
     pub const fn new(frame: Frame, patches: u32, objects: u32, batch: u32) -> Result<Self, PlanError> {
         let Frame { width, height, levels, .. } = frame;
         let (scheduler, capacity) = (Scheduler::Adaptive, 0);
-        let faces = 0;
+        let (faces, area) = (0, Area::of(&frame));
         Self::with_sizes(
             frame,
-            Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height },
+            Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height, area },
         )
     }
 
-    /// Plans a frame with these sizes, which must be the frame's own.
+    /// Plans a frame with these sizes, which must be the frame's own; only the area may be larger, for other regions.
     ///
     /// # Errors
     /// [`PlanError::Invalid`] if a size or option is out of range.
     pub const fn with_sizes(frame: Frame, sizes: Sizes) -> Result<Self, PlanError> {
-        let sizes = Sizes { levels: frame.levels, width: frame.width, height: frame.height, ..sizes };
+        let Frame { levels, width, height, .. } = frame;
+        let area = sizes.area.and(Area::of(&frame));
+        let sizes = Sizes { levels, width, height, area, ..sizes };
         match sizes.checked() {
             Ok(sizes) => Ok(Self { sizes, frame, draws: true, budget: u64::MAX }),
             Err(error) => Err(error),
@@ -176,8 +201,14 @@ impl FramePlan {
             groups: reserve("groups", Group::LAYOUT, sizes.group_entries())?,
             dealt: reserve("dealt", Surface::LAYOUT, sizes.dealt_entries())?,
             fresh: reserve("fresh", Draw::LAYOUT, sizes.fresh_entries())?,
-            samples: reserve("samples", Sample::LAYOUT, sizes.pixels())?,
-            colours: reserve("colours", Colour::LAYOUT, sizes.pixels())?,
+            samples: reserve("samples", Sample::LAYOUT, sizes.area.samples)?,
+            colours: reserve("colours", Colour::LAYOUT, sizes.area.samples)?,
+            behind: reserve("behind", Sample::LAYOUT, sizes.area.layer_entries())?,
+            front: reserve("front", Sample::LAYOUT, sizes.area.layer_entries())?,
+            layers: reserve("layers", Colour::LAYOUT, sizes.area.layer_entries())?,
+            more: reserve("more", u32::LAYOUT, 1)?,
+            taps: reserve("taps", Tap::LAYOUT, u64::from(sizes.area.taps.max(1)))?,
+            pixels: reserve("pixels", Pixel::LAYOUT, sizes.area.pixels.max(1))?,
         };
         device.write(&buffers.frame, &[self.frame])?;
         device.write(&buffers.objects, objects)?;
@@ -199,6 +230,66 @@ impl FramePlan {
             levels: self.sizes.levels,
             groups: self.sizes.group_entries() as u32,
         }
+    }
+
+    /// Aims at another frame: another view, region or moment of the same scene, which needs no larger buffers.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn aimed<D: Device>(
+        &self,
+        device: &mut D,
+        buffers: &Buffers<D::Buffer>,
+        frame: Frame,
+        objects: &[Object],
+    ) -> Result<Self, D::Error> {
+        device.write(&buffers.frame, &[frame])?;
+        device.write(&buffers.objects, objects)?;
+        Ok(Self { frame, ..*self })
+    }
+
+    /// Forgets all samples and layers.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn clear<D: Device>(&self, device: &mut D, buffers: &Buffers<D::Buffer>) -> Result<(), D::Error> {
+        device.clear(&buffers.samples)?;
+        if self.sizes.area.layered {
+            device.clear(&buffers.behind)?;
+            device.clear(&buffers.front)?;
+            device.clear(&buffers.layers)?;
+        }
+        Ok(())
+    }
+
+    /// Puts the layer in `buffers.samples` behind those before it; says whether another one may follow.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn blend<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<bool, D::Error> {
+        device.clear(&b.more)?;
+        let blend = [&b.samples, &b.colours, &b.behind, &b.front, &b.layers, &b.more];
+        device.dispatch(Stage::Blend, Items::Count(self.sizes.area.samples as u32), &blend)?;
+        let mut more = [0_u32];
+        device.read(&b.more, 0, &mut more)?;
+        Ok(more != [0])
+    }
+
+    /// Filters all samples of the frame, or if it has layers what became of them, into `buffers.pixels`.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn filter<D: Device>(
+        &self,
+        device: &mut D,
+        b: &Buffers<D::Buffer>,
+        taps: &[Tap],
+    ) -> Result<(), D::Error> {
+        device.write(&b.taps, taps)?;
+        let (samples, colours) =
+            if self.sizes.area.layered { (&b.front, &b.layers) } else { (&b.samples, &b.colours) };
+        let filter = [&b.frame, &b.taps, samples, colours, &b.pixels];
+        device.dispatch(Stage::Filter, Items::Count(self.frame.shown_count() as u32), &filter)
     }
 
     /// Renders the frame into `buffers.samples` and `buffers.colours`; `progress` sees the counts so far.
@@ -362,16 +453,23 @@ impl FramePlan {
 
     /// Bytes that the device holds beside the buffers that grow.
     fn other_bytes<D: Device>(&self, device: &D) -> u64 {
-        let Sizes { width, height, .. } = self.sizes;
-        let own = if self.draws { device.own_bytes(width, height, self.frame.rate) } else { 0 };
+        let own = if self.draws { device.own_bytes(self.extent()) } else { 0 };
         self.sizes.fixed_bytes() + self.sizes.local_bytes() + own
     }
 
     fn draw<D: Device>(&self, device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
-        let image =
-            Items::Image { width: self.sizes.width, height: self.sizes.height, rate: self.frame.rate };
-        let draw = [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.samples, &b.colours];
-        if self.draws { device.dispatch(Stage::Draw, image, &draw) } else { Ok(()) }
+        if !self.draws {
+            return Ok(());
+        }
+        let extent = self.extent();
+        let stage = if extent.sort_last { Stage::SortLast } else { Stage::Draw };
+        let draw =
+            [&b.frame, &b.objects, &b.patches, &b.control, &b.draws, &b.behind, &b.samples, &b.colours];
+        device.dispatch(stage, Items::Image(extent), &draw)
+    }
+
+    const fn extent(&self) -> Extent {
+        Extent::of(&self.frame, self.sizes.area.samples)
     }
 }
 

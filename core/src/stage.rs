@@ -2,8 +2,8 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    Colour, Control, Draw, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch,
-    Question, Sample, Shared, Slot, Surface, Verdict,
+    Colour, Control, Draw, FLAG_SORT_LAST, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch,
+    Pixel, Question, Sample, Shared, Slot, Surface, Tap, Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -43,16 +43,41 @@ pub enum Items {
     Taken,
     /// So many groups of LOCAL, each with all that its memory has room for.
     Groups(u32),
-    /// The image, and for each part of it all draws in the draw buffer: [`Control::waiting`] +
+    /// The frame's samples, and for each part of them all draws in the draw buffer: [`Control::waiting`] +
     /// [`Control::fresh`], known on the device.
-    Image {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-        /// Dice rate: [`crate::abi::Frame::rate`].
-        rate: u32,
-    },
+    Image(Extent),
+}
+
+/// What a device must know of a frame to draw it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// Columns of samples.
+    pub columns: u32,
+    /// Rows of samples.
+    pub rows: u32,
+    /// Log2 of the columns (and rows) of samples of a tile; 0 = as the device likes it.
+    pub tile_bits: u32,
+    /// Dice rate: [`Frame::rate`].
+    pub rate: u32,
+    /// Samples of the buffers: those of a blurred frame are more than its columns times rows.
+    pub samples: u64,
+    /// Is it drawn sort-last?
+    pub sort_last: bool,
+}
+
+impl Extent {
+    /// Of a frame whose buffers have so many samples.
+    #[must_use]
+    pub const fn of(frame: &Frame, samples: u64) -> Self {
+        Self {
+            columns: frame.sample_right.saturating_sub(frame.sample_left),
+            rows: frame.sample_bottom.saturating_sub(frame.sample_top),
+            tile_bits: frame.tile_bits,
+            rate: frame.rate,
+            samples,
+            sort_last: frame.flags & FLAG_SORT_LAST != 0,
+        }
+    }
 }
 
 /// The stages of a frame, in order.
@@ -73,8 +98,16 @@ pub enum Stage {
     /// LOCAL: surfaces to their new groups, draws to the draw buffer: [`crate::kernel::deal`].
     Deal,
     /// Dice, shade and sample each drawn surface, fused: [`crate::kernel::dice`],
-    /// [`crate::kernel::shade`], [`crate::kernel::sample`].
+    /// [`crate::kernel::shade`], [`crate::kernel::sample`]. Sort-middle: grids are sorted into tiles of the image, and a
+    /// tile's samples are found together (Eisenacher & Loop 2010).
     Draw,
+    /// The same, sort-last: each grid is sampled by itself, wherever it is, and samples are merged without locks: who is
+    /// nearest, then who of those has the smallest identity, and only that one's colour ([`crate::kernel::sort_last`]).
+    SortLast,
+    /// The layer found goes behind those before it: [`crate::kernel::blend`].
+    Blend,
+    /// Samples become pixels: [`crate::kernel::filter`].
+    Filter,
     /// Places of all drawn surfaces in a mesh: [`crate::kernel::mesh::places`].
     MeshPlaces,
     /// Dice each drawn surface into a mesh: [`crate::kernel::mesh::mesh`].
@@ -87,7 +120,7 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 15] = [
         Self::Take,
         Self::Bound,
         Self::Scan,
@@ -96,6 +129,9 @@ impl Stage {
         Self::Balance,
         Self::Deal,
         Self::Draw,
+        Self::SortLast,
+        Self::Blend,
+        Self::Filter,
         Self::MeshPlaces,
         Self::Mesh,
         Self::Flush,
@@ -114,6 +150,9 @@ impl Stage {
             Self::Balance => "balance",
             Self::Deal => "deal",
             Self::Draw => "draw",
+            Self::SortLast => "sort_last",
+            Self::Blend => "blend",
+            Self::Filter => "filter",
             Self::MeshPlaces => "mesh_places",
             Self::Mesh => "mesh",
             Self::Flush => "flush",
@@ -199,8 +238,46 @@ impl Stage {
                         read::<Patch>("patches"),
                         read::<Control>("control"),
                         read::<Draw>("draws"),
+                        read::<Sample>("behind"),
                         write::<Sample>("samples"),
                         write::<Colour>("colours"),
+                    ]
+                }
+            }
+            Self::SortLast => {
+                const {
+                    &[
+                        read::<Frame>("frame"),
+                        read::<Object>("objects"),
+                        read::<Patch>("patches"),
+                        read::<Control>("control"),
+                        read::<Draw>("draws"),
+                        read::<Sample>("behind"),
+                        write::<Sample>("samples"),
+                        write::<Colour>("colours"),
+                    ]
+                }
+            }
+            Self::Blend => {
+                const {
+                    &[
+                        write::<Sample>("samples"),
+                        read::<Colour>("colours"),
+                        write::<Sample>("behind"),
+                        write::<Sample>("front"),
+                        write::<Colour>("layers"),
+                        write::<u32>("more"),
+                    ]
+                }
+            }
+            Self::Filter => {
+                const {
+                    &[
+                        read::<Frame>("frame"),
+                        read::<Tap>("taps"),
+                        read::<Sample>("samples"),
+                        read::<Colour>("colours"),
+                        write::<Pixel>("pixels"),
                     ]
                 }
             }

@@ -369,6 +369,7 @@ impl FrameArguments {
             cull_backfaces: self.cull_backfaces,
             whole: false,
             profile: self.profile.into(),
+            ..FrameOptions::default()
         };
         RenderOptions {
             frame,

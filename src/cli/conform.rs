@@ -6,7 +6,7 @@ use micropoly::core::backend::Device;
 use micropoly::core::stage::Stage;
 use micropoly::devices::{DeviceEntry, Job, devices_of, with_device};
 use micropoly::{Backend, Error, FrameOptions, Image, Result, Scene, Scheduler, bpt, scene_file};
-use micropoly_conformance::report::{CaseReport, DeviceReport, check_case, check_stage, colours};
+use micropoly_conformance::report::{CaseReport, DeviceReport, check_case, check_stage, pixels};
 use micropoly_conformance::{Case, Outcome, Schedule, corpus};
 use serde_json::Value;
 
@@ -159,11 +159,11 @@ impl<D: Device> AgainstReference<'_, D> {
     fn picture<R: Device>(&mut self, reference: &mut R, case: &Case, schedule: Schedule) -> Result<()> {
         let (width, height) = (case.frame.width, case.frame.height);
         let (Ok(expected), Ok(actual)) =
-            (colours(reference, case, schedule), colours(&mut self.device, case, schedule))
+            (pixels(reference, case, schedule), pixels(&mut self.device, case, schedule))
         else {
             return Ok(());
         };
-        let images = [expected, actual].map(|all| Image::from_colours(width, height, &all));
+        let images = [expected, actual].map(|all| Image::from_pixels(width, height, &all));
         let path = self.conform.pictures.join(format!("{}.png", case.name.replace([' ', '/'], "-")));
         side_by_side(&images[0], &images[1]).save_png(&path)?;
         say!("      expected | actual | difference: {}", path.display());

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use micropoly::stats::Stats;
-use micropoly::{Camera, Error, RenderOptions, Result, Scene, Seconds};
+use micropoly::{Error, RenderOptions, Result, Scene, Seconds, Shot};
 
 use super::args::RenderArguments;
 use super::output::{Kind, numbered};
@@ -24,9 +24,9 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
         return render_path(arguments, &scene, &options, kind, first..=last);
     }
 
-    let mut progress = Progress::new(arguments.progress, scene.patch_count() as u64, "patches");
-    let rendering = micropoly::render(&scene, &options, |counts| {
-        progress.update(counts.roots_taken, || format!("{} surfaces", counts.processed));
+    let mut progress = Progress::new(arguments.progress, 100, "per cent");
+    let rendering = micropoly::render(&scene, &options, |now| {
+        progress.update((now.share * 100.0) as u64, || format!("{} surfaces", now.counts.processed));
     })?;
     progress.finish();
     tell(&rendering.notes);
@@ -62,11 +62,11 @@ fn render_path(
         })
     };
     file(first)?;
-    let cameras: Vec<Camera> =
-        frames.clone().map(|frame| scene.camera_at(f64::from(frame))).collect::<Result<_>>()?;
-    let mut progress = Progress::new(arguments.progress, cameras.len() as u64, "frames");
+    let shots: Vec<Shot> =
+        frames.clone().map(|frame| Shot::at(scene, f64::from(frame))).collect::<Result<_>>()?;
+    let mut progress = Progress::new(arguments.progress, shots.len() as u64, "frames");
     let mut done = 0;
-    let notes = micropoly::render_frames(scene, options, &cameras, |number, rendering| {
+    let notes = micropoly::render_frames(scene, options, &shots, |number, rendering| {
         let path = file(first + number as u32)?;
         kind.save(&rendering, &path)?;
         done += 1;

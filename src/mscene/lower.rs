@@ -10,7 +10,8 @@ use micropoly_core::camera::{Camera, Light, Material};
 use super::model::{CameraEntry, LightEntry, LightType, Mesh, MeshPatches, Mscene, ObjectEntry};
 use super::place::{Place, quoted};
 use crate::error::{Error, Result};
-use crate::scene::{Scene, SceneObject};
+use crate::scene::{Motion, Scene, SceneObject};
+use crate::shot::Blur;
 
 /// Most patches of all objects together: a small file can use one mesh many times.
 const MAX_PATCHES: usize = 10_000_000;
@@ -27,6 +28,7 @@ pub(super) fn scene(path: &Path, file: &Mscene) -> Result<Scene> {
         name: path.display().to_string(),
         camera,
         path: None,
+        blur: Blur::default(),
         background: Vec3::ZERO,
         ambient,
         lights,
@@ -97,9 +99,10 @@ fn objects(path: &Path, file: &Mscene) -> Result<Vec<SceneObject>> {
             let problem = format!("with it the scene has more than {MAX_PATCHES} patches");
             return Err(place.wrong(problem, "split the scene"));
         }
-        let material = Material { colour: entry.colour, specular: 0.0, gloss: 0 };
+        let material = Material { colour: entry.colour, specular: 0.0, gloss: 0, opacity: 1.0 };
         let to_world = entry.placement.to_world();
-        objects.push(SceneObject { patches, gregory, to_world, material, displacement: None });
+        let (displacement, motion) = (None, Motion::default());
+        objects.push(SceneObject { patches, gregory, to_world, material, displacement, motion });
     }
     Ok(objects)
 }

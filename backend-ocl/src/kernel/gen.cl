@@ -49,6 +49,12 @@
 #define FLAG_FIXED 4u
 #define FLAG_NAIVE 8u
 #define FLAG_WHOLE 16u
+#define FLAG_SMOOTH 32u
+#define FLAG_LAYERS 64u
+#define FLAG_SORT_LAST 128u
+#define MAX_PATTERN_BITS 3u
+#define MAX_SAMPLES 64u
+#define OPAQUE_DEPTH 1u
 #define WEBER_FAR 1e3f
 #define WEBER_MARGIN 3.2e1f
 #define WEBER_TINY 1e-12f
@@ -73,6 +79,7 @@ typedef struct {
     float height;
     float frequency;
     uint octaves;
+    float opacity;
     float normal_to_eye[9];
 } Object;
 
@@ -94,7 +101,45 @@ typedef struct {
     float ambient[3];
     float light_vector[32];
     float light_colour[24];
+    uint left;
+    uint right;
+    uint top;
+    uint bottom;
+    uint sample_left;
+    uint sample_right;
+    uint sample_top;
+    uint sample_bottom;
+    uint pitch_bits;
+    uint pattern_bits;
+    int sample_x[64];
+    int sample_y[64];
+    int least_offset;
+    int most_offset;
+    uint place_first;
+    uint place_column;
+    uint place_row;
+    uint tile_bits;
+    uint shown_left;
+    uint shown_right;
+    uint shown_top;
+    uint shown_bottom;
+    uint taps;
 } Frame;
+
+typedef struct {
+    float weight;
+    int column;
+    int row;
+} Tap;
+
+typedef struct {
+    float rgba[4];
+    uint depth;
+    uint patch_id;
+    uint u;
+    uint v;
+    uint covered;
+} Pixel;
 
 typedef struct {
     uint patch_id;

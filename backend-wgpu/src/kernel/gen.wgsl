@@ -49,6 +49,12 @@ const FLAG_WEBER: u32 = 2u;
 const FLAG_FIXED: u32 = 4u;
 const FLAG_NAIVE: u32 = 8u;
 const FLAG_WHOLE: u32 = 16u;
+const FLAG_SMOOTH: u32 = 32u;
+const FLAG_LAYERS: u32 = 64u;
+const FLAG_SORT_LAST: u32 = 128u;
+const MAX_PATTERN_BITS: u32 = 3u;
+const MAX_SAMPLES: u32 = 64u;
+const OPAQUE_DEPTH: u32 = 1u;
 const WEBER_FAR: f32 = 1e3f;
 const WEBER_MARGIN: f32 = 3.2e1f;
 const WEBER_TINY: f32 = 1e-12f;
@@ -73,6 +79,7 @@ struct Object {
     height: f32,
     frequency: f32,
     octaves: u32,
+    opacity: f32,
     normal_to_eye: array<f32, 9>,
 }
 
@@ -94,6 +101,44 @@ struct Frame {
     ambient: array<f32, 3>,
     light_vector: array<f32, 32>,
     light_colour: array<f32, 24>,
+    left: u32,
+    right: u32,
+    top: u32,
+    bottom: u32,
+    sample_left: u32,
+    sample_right: u32,
+    sample_top: u32,
+    sample_bottom: u32,
+    pitch_bits: u32,
+    pattern_bits: u32,
+    sample_x: array<i32, 64>,
+    sample_y: array<i32, 64>,
+    least_offset: i32,
+    most_offset: i32,
+    place_first: u32,
+    place_column: u32,
+    place_row: u32,
+    tile_bits: u32,
+    shown_left: u32,
+    shown_right: u32,
+    shown_top: u32,
+    shown_bottom: u32,
+    taps: u32,
+}
+
+struct Tap {
+    weight: f32,
+    column: i32,
+    row: i32,
+}
+
+struct Pixel {
+    rgba: array<f32, 4>,
+    depth: u32,
+    patch_id: u32,
+    u: u32,
+    v: u32,
+    covered: u32,
 }
 
 struct Surface {

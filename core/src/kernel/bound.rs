@@ -201,13 +201,13 @@ impl Reach {
         Self { low: min(self.low, other.low), high: max(self.high, other.high) }
     }
 
-    /// First pixel that it, widened by `margin`, can touch, and one past the last; within the image.
+    /// First pixel that it, widened by `margin`, can touch, and one past the last; among those from `first` to `end`.
     #[inline(always)]
-    fn pixels(self, centre: f32, size: u32, margin: f32) -> (i32, i32) {
-        let size = float(size as i32);
+    fn pixels(self, centre: f32, (first, end): (u32, u32), margin: f32) -> (i32, i32) {
+        let (first, end) = (float(first as i32), float(end as i32));
         let low = sub(add(self.low, centre), margin);
         let high = add(add(self.high, centre), add(margin, 1.0));
-        (floor(clamp(low, 0.0, size)), floor(clamp(high, 0.0, size)))
+        (floor(clamp(low, first, end)), floor(clamp(high, first, end)))
     }
 }
 
@@ -500,13 +500,13 @@ impl PixelBox {
     const EMPTY: Self = Self([0; 4]);
 
     fn whole(frame: &Frame) -> Self {
-        Self([0, frame.width as i32, 0, frame.height as i32])
+        Self([frame.left as i32, frame.right as i32, frame.top as i32, frame.bottom as i32])
     }
 
     #[inline(always)]
     fn around(frame: &Frame, seen: &Seen, margin: f32) -> Self {
-        let (left, right) = seen.x.pixels(frame.centre_x, frame.width, margin);
-        let (top, bottom) = seen.y.pixels(frame.centre_y, frame.height, margin);
+        let (left, right) = seen.x.pixels(frame.centre_x, (frame.left, frame.right), margin);
+        let (top, bottom) = seen.y.pixels(frame.centre_y, (frame.top, frame.bottom), margin);
         Self([left, right, top, bottom])
     }
 

@@ -172,6 +172,28 @@ fn dice_smooth(frame: &Frame, patches: &[Patch], draw: Draw, grid: &mut Grid) {
     }
 }
 
+/// The unit normal, in eye space, of what is drawn at a parameter of a patch, displaced or not.
+#[must_use]
+pub fn normal_at(frame: &Frame, patches: &[Patch], object: &Object, patch_id: u32, u: u32, v: u32) -> [f32; 3] {
+    if object.reach > 0.0 {
+        let Owner { patch_id, u, v } = patches[patch_id as usize].owner(patch_id, u, v);
+        let (point, normal) = Source::new(patches, patch_id).vertex(frame, u, v);
+        let slope = lane(&bump(object, &point.map(|k| [k; LANES])).1, 0);
+        let along = add3(slope, scale3(normal, neg(dot3(slope, normal))));
+        return object.normal_to_eye(add3(normal, scale3(along, -1.0)));
+    }
+    let patch = &patches[patch_id as usize];
+    let net = Net::in_eye_space(patch, object);
+    let vertex = match patch.faces {
+        0 => evaluate_bezier(&net, u, v),
+        record => {
+            let faces = Faces::in_eye_space(&patches[record as usize], object);
+            evaluate_gregory(&net, &faces, frame, u, v)
+        }
+    };
+    normal_of(&net, &vertex, u, v, mul(size(&net), FLAT))
+}
+
 /// Displaces [`LANES`] vertices, and moves them to eye space.
 #[inline(always)]
 fn displace_block(object: &Object, block: usize, grid: &mut Grid) {

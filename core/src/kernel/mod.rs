@@ -2,14 +2,17 @@
 #![deny(clippy::float_arithmetic)]
 
 pub mod balance;
+pub mod blend;
 pub mod bound;
 pub mod bound_lanes;
 pub mod clip;
 pub mod deal;
+pub mod dense;
 pub mod dice;
 pub mod dice_any;
 pub mod dice_gregory;
 pub mod displace;
+pub mod filter;
 pub mod known_answers;
 pub mod local;
 pub mod mesh;
@@ -19,6 +22,7 @@ pub mod sample;
 pub mod scan;
 pub mod shade;
 pub mod sides;
+pub mod sort_last;
 pub mod split;
 pub mod take;
 pub mod triangle;

@@ -1,56 +1,64 @@
-//! sample: micropolygons become samples, one a pixel at its centre; the nearest wins.
+//! sample: micropolygons become samples; the nearest wins.
 //!
 //! A micropolygon is two triangles. Where two are equally near the smaller identity (patch, u, v) wins, so
 //! the image does not depend on the order in which surfaces arrive.
 
-use crate::abi::{Colour, Draw, FLAG_CULL_BACKFACES, Frame, MAX_RATE_BITS, Sample};
+use crate::abi::{Colour, Draw, FLAG_CULL_BACKFACES, FLAG_SMOOTH, Frame, MAX_RATE, Sample};
+use crate::kernel::blend::is_behind;
 use crate::kernel::clip::clip;
+use crate::kernel::dense::{Pattern, Quad};
 use crate::kernel::dice::{Grid, LANES};
 use crate::kernel::project::{Vertex, project_clipped};
 use crate::kernel::quads::{FOUND, NOTHING, Quads};
-use crate::kernel::triangle::{Corner, depth, edge, owns, pixels_between, sample_triangle, signed_area};
+use crate::kernel::triangle::{
+    Corner, Hit, Site, edge, hit, owns, sample_triangle, samples_between, signed_area, site, weighted,
+};
 use crate::num::{add, mul};
 
-/// Rows `first_row` … of the image, `width` samples each.
+/// Where samples go.
+pub trait Target {
+    /// Samples that it takes: first column and one past the last, first row and one past the last.
+    fn limits(&self) -> [i32; 4];
+
+    /// Takes what a micropolygon shows at a sample within the limits.
+    fn put(&mut self, column: i32, row: i32, new: Sample, colour: Colour);
+}
+
+/// Samples in a rectangle of columns and rows, and the slice of the frame's buffers that they lie in.
 #[derive(Debug)]
 pub struct Band<'a> {
-    /// Samples a row.
-    pub width: u32,
-    /// Rows of the band.
-    pub height: u32,
-    /// Row of the image that the band starts with.
-    pub first_row: u32,
-    /// Nearest micropolygon a sample, row after row.
+    /// First column of samples, and one past the last; first row, and one past the last.
+    pub limits: [i32; 4],
+    /// The column and the row whose sample is at place `first` of the slices.
+    pub origin: [i32; 2],
+    /// That place.
+    pub first: usize,
+    /// Places from a column to the next.
+    pub column: usize,
+    /// Places from a row to the next.
+    pub row: usize,
+    /// What has been found at the last layer, sample for sample; empty if there is only one.
+    pub behind: &'a [Sample],
+    /// Nearest micropolygon a sample.
     pub samples: &'a mut [Sample],
     /// Its colour.
     pub colours: &'a mut [Colour],
 }
 
-impl Band<'_> {
-    /// Rows of the image that the band covers: the first, and one past the last.
+impl Target for Band<'_> {
     #[inline(always)]
-    #[must_use]
-    pub fn rows(&self) -> (u32, u32) {
-        (self.first_row, self.first_row + self.height)
-    }
-
-    #[inline(always)]
-    fn contains(&self, column: i32, row: i32) -> bool {
-        let row = row.wrapping_sub(self.first_row as i32) as u32;
-        (column as u32) < self.width && row < self.height
-    }
-
-    /// The part of a box of pixels that lies inside the band.
-    #[inline(always)]
-    fn inside(&self, [left, right, top, bottom]: [i32; 4]) -> [i32; 4] {
-        let (first_row, end_row) = self.rows();
-        [left.max(0), right.min(self.width as i32), top.max(first_row as i32), bottom.min(end_row as i32)]
+    fn limits(&self) -> [i32; 4] {
+        self.limits
     }
 
     /// Keeps a new sample if it is to be shown rather than the old one.
     #[inline(always)]
     fn put(&mut self, column: i32, row: i32, new: Sample, colour: Colour) {
-        let place = (row as u32 - self.first_row) as usize * self.width as usize + column as usize;
+        let columns = (column - self.origin[0]) as usize * self.column;
+        let place = self.first + (row - self.origin[1]) as usize * self.row + columns;
+        if !self.behind.is_empty() && !is_behind(new, self.behind[place]) {
+            return;
+        }
         if nearer(new, self.samples[place]) {
             self.samples[place] = new;
             self.colours[place] = colour;
@@ -68,16 +76,28 @@ pub fn nearer(new: Sample, old: Sample) -> bool {
     (new.patch_id, new.u, new.v) < (old.patch_id, old.u, old.v)
 }
 
-/// Samples all micropolygons of a shaded grid inside the band.
+/// Samples all micropolygons of a shaded grid, whose object has this opacity.
 #[inline(always)]
-pub fn sample(frame: &Frame, draw: Draw, grid: &Grid, band: &mut Band<'_>) {
+pub fn sample<T: Target>(
+    frame: &Frame,
+    pattern: &Pattern,
+    (draw, opacity): (Draw, f32),
+    grid: &Grid,
+    target: &mut T,
+) {
     if frame.flags & FLAG_CULL_BACKFACES != 0 && faces_away(grid) {
         return;
     }
-    let sampler = Sampler { frame, draw, grid };
+    let sampler = Sampler::new(frame, draw, opacity, grid);
     for row in 0..grid.rows - 1 {
+        if frame.pattern_bits > 0 {
+            for column in 0..grid.stride - 1 {
+                sampler.dense(pattern, (row, column), target);
+            }
+            continue;
+        }
         for block in (0..grid.stride - 1).step_by(LANES) {
-            sampler.block(row, block, band);
+            sampler.block(row, block, target);
         }
     }
 }
@@ -85,54 +105,90 @@ pub fn sample(frame: &Frame, draw: Draw, grid: &Grid, band: &mut Band<'_>) {
 /// A row and column of a grid: of a vertex, or of the micropolygon that starts there.
 type Place = (usize, usize);
 
+/// The corners of a micropolygon: a, b to the right of it, c diagonally, d below it.
+type Corners = [usize; 4];
+
 /// What is being sampled.
 struct Sampler<'a> {
     frame: &'a Frame,
-    draw: Draw,
+    opacity: f32,
     grid: &'a Grid,
+    patch_id: u32,
+    /// Low u of the micropolygons of each column, and low v of those of each row.
+    u: [u32; MAX_RATE as usize],
+    v: [u32; MAX_RATE as usize],
 }
 
-impl Sampler<'_> {
+impl<'a> Sampler<'a> {
+    #[inline(always)]
+    fn new(frame: &'a Frame, draw: Draw, opacity: f32, grid: &'a Grid) -> Self {
+        let (mut u, mut v) = ([0; MAX_RATE as usize], [0; MAX_RATE as usize]);
+        for column in 0..draw.rate_u() {
+            u[column as usize] = draw.column(column);
+        }
+        for row in 0..draw.rate_v() {
+            v[row as usize] = draw.row(row);
+        }
+        Self { frame, opacity, grid, patch_id: draw.patch_id, u, v }
+    }
+
     #[inline(always)]
     fn index(&self, (row, column): Place) -> usize {
         row * self.grid.stride + column
     }
 
     #[inline(always)]
-    fn vertex(&self, place: Place) -> Vertex {
+    fn corners(&self, place: Place) -> Corners {
         let at = self.index(place);
+        let below = at + self.grid.stride;
+        [at, at + 1, below + 1, below]
+    }
+
+    #[inline(always)]
+    fn vertex(&self, at: usize) -> Vertex {
         Vertex { x: self.grid.x[at], y: self.grid.y[at], w: self.grid.w[at] }
     }
 
-    /// Identity of the micropolygon in this row and column, at this depth.
+    /// The micropolygon in this row and column, at this depth.
     #[inline(always)]
     fn sample(&self, (row, column): Place, w: f32) -> Sample {
-        let surface = self.draw.surface();
-        Sample {
-            depth: w.to_bits(),
-            patch_id: surface.patch_id,
-            u: surface.u + column as u32 * (surface.u_size() >> MAX_RATE_BITS),
-            v: surface.v + row as u32 * (surface.v_size() >> MAX_RATE_BITS),
-        }
+        Sample { depth: w.to_bits(), patch_id: self.patch_id, u: self.u[column], v: self.v[row] }
+    }
+
+    /// Its colour where one of its triangles, a b c or the second, a c d, was hit.
+    #[inline(always)]
+    fn colour(&self, corners: Corners, second: bool, hit: Hit) -> Colour {
+        if self.frame.flags & FLAG_SMOOTH == 0 { self.mean(corners) } else { self.smooth(corners, second, hit) }
     }
 
     /// Mean colour of the four vertices of a micropolygon.
     #[inline(always)]
-    fn colour(&self, place: Place) -> Colour {
-        let at = self.index(place);
-        let below = at + self.grid.stride;
-        let mut rgba = [1.0; 4];
+    fn mean(&self, [a, b, c, d]: Corners) -> Colour {
+        let mut rgba = [self.opacity; 4];
         for k in 0..3 {
             let colour = &self.grid.colour[k];
-            rgba[k] = mul(0.25, add(add(colour[at], colour[below + 1]), add(colour[at + 1], colour[below])));
+            rgba[k] = mul(0.25, add(add(colour[a], colour[c]), add(colour[b], colour[d])));
         }
         Colour { rgba }
     }
 
-    /// Samples [`LANES`] micropolygons of one row.
+    /// Colour between the vertices of a triangle.
     #[inline(always)]
-    fn block(&self, row: usize, block: usize, band: &mut Band<'_>) {
-        let quads = Quads::new(self.grid, self.index((row, block)));
+    fn smooth(&self, [a, b, c, d]: Corners, second: bool, hit: Hit) -> Colour {
+        let [p, q] = if second { [c, d] } else { [b, c] };
+        let mut rgba = [self.opacity; 4];
+        for k in 0..3 {
+            let colour = &self.grid.colour[k];
+            rgba[k] = weighted([colour[a], colour[p], colour[q]], hit.for_b, hit.for_c);
+        }
+        Colour { rgba }
+    }
+
+    /// Samples [`LANES`] micropolygons of one row, each of which owns one sample at most, or is left to the general way.
+    #[inline(always)]
+    fn block<T: Target>(&self, row: usize, block: usize, target: &mut T) {
+        let [left, right, top, bottom] = target.limits();
+        let quads = Quads::new(self.frame, self.grid, self.index((row, block)));
         let finds = quads.find();
         for l in 0..LANES.min(self.grid.stride - 1 - block) {
             let place = (row, block + l);
@@ -140,81 +196,124 @@ impl Sampler<'_> {
                 NOTHING => {}
                 FOUND => {
                     let (x, y) = (quads.left[l], quads.top[l]);
-                    if band.contains(x, y) {
-                        band.put(x, y, self.sample(place, finds.w[l]), self.colour(place));
+                    if x >= left && x < right && y >= top && y < bottom {
+                        let colour = self.colour(self.corners(place), finds.second[l], finds.hit(l));
+                        target.put(x, y, self.sample(place, finds.w[l]), colour);
                     }
                 }
-                _ => self.micropolygon(place, quads.pixels(l), band),
+                _ => self.micropolygon(place, quads.samples(l), target),
+            }
+        }
+    }
+
+    /// Samples one micropolygon that may own many samples.
+    #[inline(always)]
+    fn dense<T: Target>(&self, pattern: &Pattern, place: Place, target: &mut T) {
+        let corners = self.corners(place);
+        let quad = corners.map(|at| self.vertex(at));
+        let samples = Quad::samples(self.frame, quad);
+        if !Quad::is_small(quad) {
+            self.micropolygon(place, samples, target);
+            return;
+        }
+        let [left, right, top, bottom] = inside(target.limits(), samples);
+        if left >= right || top >= bottom {
+            return;
+        }
+        let quad = Quad::new(pattern, quad, samples);
+        let mean = self.mean(corners);
+        let is_smooth = self.frame.flags & FLAG_SMOOTH != 0;
+        for y in top..bottom {
+            let mut first = left;
+            while first < right {
+                let row = quad.row(pattern, first, y);
+                let mut owned = row.owned & ((1 << (right - first).min(LANES as i32)) - 1);
+                while owned != 0 {
+                    let l = owned.trailing_zeros() as usize;
+                    owned &= owned - 1;
+                    let colour =
+                        if is_smooth { self.smooth(corners, row.second[l], row.hit(l)) } else { mean };
+                    target.put(first + l as i32, y, self.sample(place, row.w[l]), colour);
+                }
+                first += LANES as i32;
             }
         }
     }
 
     /// Samples one quad of any size as the triangles a b c and a c d.
     #[inline(never)]
-    fn micropolygon(&self, place: Place, pixels: [i32; 4], band: &mut Band<'_>) {
-        let (row, column) = place;
-        let places = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column)];
-        let quad = places.map(|place| self.vertex(place));
+    fn micropolygon<T: Target>(&self, place: Place, samples: [i32; 4], target: &mut T) {
+        let corners = self.corners(place);
+        let quad = corners.map(|at| self.vertex(at));
         if quad.iter().any(|vertex| vertex.w == 0.0) {
-            let [a, b, c, d] = places.map(|place| self.grid.point(self.index(place)));
-            self.clipped([a, b, c], place, band);
-            self.clipped([a, c, d], place, band);
+            let [a, b, c, d] = corners.map(|at| self.grid.point(at));
+            self.clipped([a, b, c], place, target);
+            self.clipped([a, c, d], place, target);
             return;
         }
-        let [left, right, top, bottom] = band.inside(pixels);
+        let [left, right, top, bottom] = inside(target.limits(), samples);
         for y in top..bottom {
             for x in left..right {
-                if let Some(w) = sample_quad(quad, x, y) {
-                    band.put(x, y, self.sample(place, w), self.colour(place));
+                if let Some((second, hit)) = sample_quad(quad, site(self.frame, x, y)) {
+                    target.put(x, y, self.sample(place, hit.w), self.colour(corners, second, hit));
                 }
             }
         }
     }
 
-    /// Clips a triangle and samples what is left of it, as a fan.
+    /// Clips a triangle and samples what is left of it, as a fan, all in the micropolygon's mean colour.
     #[cold]
-    fn clipped(&self, triangle: [[f32; 3]; 3], place: Place, band: &mut Band<'_>) {
+    fn clipped<T: Target>(&self, triangle: [[f32; 3]; 3], place: Place, target: &mut T) {
         let polygon = clip(self.frame, triangle);
         for k in 2..polygon.count {
             let fan = [0, k - 1, k].map(|k| project_clipped(self.frame, polygon.corners[k]));
-            self.triangle(fan, place, band);
+            self.triangle(fan, place, target);
         }
     }
 
     /// Samples a triangle that belongs to the micropolygon at `place`.
     #[inline(always)]
-    fn triangle(&self, triangle: [Vertex; 3], place: Place, band: &mut Band<'_>) {
+    fn triangle<T: Target>(&self, triangle: [Vertex; 3], place: Place, target: &mut T) {
         let [a, b, c] = triangle;
-        let (left, right) = pixels_between(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
-        let (top, bottom) = pixels_between(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
-        let [left, right, top, bottom] = band.inside([left, right, top, bottom]);
+        let (left, right) = samples_between(self.frame, a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let (top, bottom) = samples_between(self.frame, a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+        let [left, right, top, bottom] = inside(target.limits(), [left, right, top, bottom]);
         for y in top..bottom {
             for x in left..right {
-                if let Some(w) = sample_triangle(triangle, x, y) {
-                    band.put(x, y, self.sample(place, w), self.colour(place));
+                if let Some(hit) = sample_triangle(triangle, site(self.frame, x, y)) {
+                    target.put(x, y, self.sample(place, hit.w), self.mean(self.corners(place)));
                 }
             }
         }
     }
 }
 
-/// 1 / distance at the centre of a pixel if one of the quad's two triangles, a b c and a c d, owns it; of
-/// two that overlap, the nearer.
+/// What two boxes of samples have in common.
 #[inline(always)]
-fn sample_quad(quad: [Vertex; 4], column: i32, row: i32) -> Option<f32> {
+fn inside(limits: [i32; 4], [left, right, top, bottom]: [i32; 4]) -> [i32; 4] {
+    [left.max(limits[0]), right.min(limits[1]), top.max(limits[2]), bottom.min(limits[3])]
+}
+
+/// What a quad shows at a sample that one of its two triangles, a b c and a c d, owns, and whether that is the second;
+/// of two that overlap, the nearer, of two equally near the first.
+#[inline(always)]
+fn sample_quad(quad: [Vertex; 4], site: Site) -> Option<(bool, Hit)> {
     let [a, b, c, d] = [
-        Corner::new(quad[0], column, row),
-        Corner::new(quad[1], column, row),
-        Corner::new(quad[2], column, row),
-        Corner::new(quad[3], column, row),
+        Corner::new(quad[0], site),
+        Corner::new(quad[1], site),
+        Corner::new(quad[2], site),
+        Corner::new(quad[3], site),
     ];
     let diagonal = edge(c, a);
     let first = [edge(b, c), diagonal, edge(a, b)];
     let second = [edge(c, d), edge(d, a), -diagonal];
     match (owns([a, b, c], first), owns([a, c, d], second)) {
-        (true, false) => Some(depth([a, b, c], first)),
-        (false, true) => Some(depth([a, c, d], second)),
-        (true, true) => Some(crate::num::max(depth([a, b, c], first), depth([a, c, d], second))),
+        (true, false) => Some((false, hit([a, b, c], first))),
+        (false, true) => Some((true, hit([a, c, d], second))),
+        (true, true) => {
+            let (p, q) = (hit([a, b, c], first), hit([a, c, d], second));
+            Some(if q.w > p.w { (true, q) } else { (false, p) })
+        }
         (false, false) => None,
     }
 }

@@ -3,7 +3,7 @@
 //! Two triangles that share an edge share its snapped vertices; every sample on or beside the edge belongs
 //! to exactly one of them.
 
-use crate::abi::{SUBPIXEL_BITS, SUBPIXELS};
+use crate::abi::Frame;
 use crate::kernel::project::Vertex;
 use crate::num::{add, clamp, float, max, min, mul, recip, sub};
 
@@ -16,12 +16,26 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// `vertex` as seen from the centre of a pixel.
+    /// `vertex` as seen from a sample.
     #[inline(always)]
     #[must_use]
-    pub fn new(vertex: Vertex, column: i32, row: i32) -> Self {
-        Self { x: i64::from(vertex.x - centre(column)), y: i64::from(vertex.y - centre(row)), w: vertex.w }
+    pub fn new(vertex: Vertex, [x, y]: Site) -> Self {
+        Self { x: i64::from(vertex.x - x), y: i64::from(vertex.y - y), w: vertex.w }
     }
+}
+
+/// Where a sample is, in snapped units.
+pub type Site = [i32; 2];
+
+/// What a triangle shows at a sample that it owns.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Hit {
+    /// 1 / distance.
+    pub w: f32,
+    /// Share of the second corner.
+    pub for_b: f32,
+    /// Share of the third corner.
+    pub for_c: f32,
 }
 
 /// Twice the area between the sample and the edge from `a` to `b`, in 1/65536 pixels²: positive if the
@@ -62,28 +76,30 @@ fn owns_border([a, b, c]: [Corner; 3], edges: [i64; 3]) -> bool {
 /// is exact.
 #[inline(always)]
 #[must_use]
-pub fn depth(corners: [Corner; 3], edges: [i64; 3]) -> f32 {
+pub fn hit(corners: [Corner; 3], edges: [i64; 3]) -> Hit {
     let area = (edges[0] + edges[1] + edges[2]).abs();
     let spare = 40_u32.saturating_sub(area.leading_zeros());
     let share = recip(float((area >> spare) as i32));
-    let weight_b = mul(float((edges[1].abs() >> spare) as i32), share);
-    let weight_c = mul(float((edges[2].abs() >> spare) as i32), share);
-    let [a, b, c] = [corners[0].w, corners[1].w, corners[2].w];
-    let w = add(a, add(mul(weight_b, sub(b, a)), mul(weight_c, sub(c, a))));
-    clamp(w, min(min(a, b), c), max(max(a, b), c))
+    let for_b = mul(float((edges[1].abs() >> spare) as i32), share);
+    let for_c = mul(float((edges[2].abs() >> spare) as i32), share);
+    Hit { w: weighted(corners.map(|corner| corner.w), for_b, for_c), for_b, for_c }
 }
 
-/// 1 / distance at the centre of a pixel, or `None` if the triangle does not own that sample.
+/// A value of three corners at a place inside the triangle, given the shares of the second and the third.
 #[inline(always)]
 #[must_use]
-pub fn sample_triangle(triangle: [Vertex; 3], column: i32, row: i32) -> Option<f32> {
-    let [a, b, c] = [
-        Corner::new(triangle[0], column, row),
-        Corner::new(triangle[1], column, row),
-        Corner::new(triangle[2], column, row),
-    ];
+pub fn weighted([a, b, c]: [f32; 3], for_b: f32, for_c: f32) -> f32 {
+    let value = add(a, add(mul(for_b, sub(b, a)), mul(for_c, sub(c, a))));
+    clamp(value, min(min(a, b), c), max(max(a, b), c))
+}
+
+/// What a triangle shows at a sample, or `None` if it does not own it.
+#[inline(always)]
+#[must_use]
+pub fn sample_triangle(triangle: [Vertex; 3], site: Site) -> Option<Hit> {
+    let [a, b, c] = [Corner::new(triangle[0], site), Corner::new(triangle[1], site), Corner::new(triangle[2], site)];
     let edges = [edge(b, c), edge(c, a), edge(a, b)];
-    if owns([a, b, c], edges) { Some(depth([a, b, c], edges)) } else { None }
+    if owns([a, b, c], edges) { Some(hit([a, b, c], edges)) } else { None }
 }
 
 /// Twice the area of a triangle, 1/65536 pixels²: negative if it runs anticlockwise as seen on screen.
@@ -95,17 +111,21 @@ pub fn signed_area(a: Vertex, b: Vertex, c: Vertex) -> i64 {
     bx * cy - by * cx
 }
 
-/// The centre of a pixel column or row in snapped units.
+/// Where the sample in this column and row is.
 #[inline(always)]
 #[must_use]
-pub fn centre(pixel: i32) -> i32 {
-    pixel * SUBPIXELS + SUBPIXELS / 2
+pub fn site(frame: &Frame, column: i32, row: i32) -> Site {
+    let mask = (1 << frame.pattern_bits) - 1;
+    let index = ((row & mask) << frame.pattern_bits | (column & mask)) as usize;
+    let start = |field: i32| field << frame.pitch_bits;
+    [start(column) + frame.sample_x[index], start(row) + frame.sample_y[index]]
 }
 
-/// First pixel whose centre is not before `low`, and one past the last whose centre is not after `high`.
+/// First column (or row) of samples that need not be before `low`, and one past the last that need not be after `high`.
 #[inline(always)]
 #[must_use]
-pub fn pixels_between(low: i32, high: i32) -> (i32, i32) {
-    let half = SUBPIXELS / 2;
-    ((low + half - 1) >> SUBPIXEL_BITS, ((high - half) >> SUBPIXEL_BITS) + 1)
+pub fn samples_between(frame: &Frame, low: i32, high: i32) -> (i32, i32) {
+    let field = (1 << frame.pitch_bits) - 1;
+    let first = (low - frame.most_offset + field) >> frame.pitch_bits;
+    (first, ((high - frame.least_offset) >> frame.pitch_bits) + 1)
 }

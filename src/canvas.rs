@@ -1,0 +1,70 @@
+//! The canvas: pixels of all parts of an image, as they come.
+
+use std::time::Instant;
+
+use glam::Vec3;
+use micropoly_core::abi::Pixel;
+use micropoly_core::backend::Device;
+use micropoly_core::pattern::Window;
+use rayon::prelude::*;
+
+use crate::film::Film;
+use crate::image::{Encoder, Image};
+use crate::passes::Passes;
+use crate::render::{Subject, read_all};
+
+/// Pixels, encoded as they come, and as they are if somebody wants them.
+pub(crate) struct Canvas {
+    window: Window,
+    encoder: Encoder,
+    background: Vec3,
+    rgb: Vec<u8>,
+    pixels: Vec<Pixel>,
+    /// Time that encoding took.
+    pub(crate) seconds: f64,
+}
+
+impl Canvas {
+    /// For these pixels of an image.
+    pub(crate) fn new(window: Window, background: Vec3, keeps: bool) -> Self {
+        let count = window.pixels() as usize;
+        let pixels = if keeps { vec![Pixel::default(); count] } else { Vec::new() };
+        let encoder = Encoder::new(background);
+        Self { window, encoder, background, rgb: vec![0; 3 * count], pixels, seconds: 0.0 }
+    }
+
+    /// Takes the pixels of a part.
+    pub(crate) fn take<D: Device>(
+        &mut self,
+        device: &mut D,
+        buffer: &D::Buffer,
+        part: Window,
+    ) -> Result<(), D::Error> {
+        let pixels: Vec<Pixel> = read_all(device, buffer, part.pixels() as usize)?;
+        let start = Instant::now();
+        let width = self.window.width() as usize;
+        let (first_row, first_column) =
+            ((part.top - self.window.top) as usize, (part.left - self.window.left) as usize);
+        for (row, pixels) in pixels.chunks_exact(part.width() as usize).enumerate() {
+            let at = (first_row + row) * width + first_column;
+            self.encoder.encode_row(pixels, &mut self.rgb[3 * at..]);
+            if let Some(kept) = self.pixels.get_mut(at..at + pixels.len()) {
+                kept.copy_from_slice(pixels);
+            }
+        }
+        self.seconds += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    /// What it shows as linear values.
+    pub(crate) fn film(&mut self, job: &Passes<'_>, subject: Subject<'_>, size: (u32, u32)) -> Film {
+        let pixels = std::mem::take(&mut self.pixels);
+        let normals = pixels.par_iter().map(|pixel| job.normal(subject, pixel)).collect();
+        Film { window: self.window, size, background: self.background, pixels, normals }
+    }
+
+    /// What it shows.
+    pub(crate) fn image(self) -> Image {
+        Image { width: self.window.width(), height: self.window.height(), rgb: self.rgb }
+    }
+}

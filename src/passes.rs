@@ -1,0 +1,202 @@
+//! An image in passes: parts of it, one after the other, so that all samples of a part fit the memory; for each of them
+//! layers, while something can be seen through; for each layer the moments of a blurred image.
+
+use glam::Vec3;
+use micropoly_core::abi::{Frame, Object, Pixel, Tap};
+use micropoly_core::backend::Device;
+use micropoly_core::error::PlanError;
+use micropoly_core::kernel::displace::normal_at;
+use micropoly_core::memory::{Area, Room, Sizes};
+use micropoly_core::pattern::{Region, Samples, Tuple, Window, tuples};
+use micropoly_core::reconstruction::{MAX_TAPS, MIN_RADIUS};
+use micropoly_core::render::{Buffers, Counts, FramePlan};
+use micropoly_core::stage::Extent;
+
+use crate::canvas::Canvas;
+use crate::error::{Error, Result};
+use crate::render::{Progress, RenderOptions, Subject, chosen_sizes, note_on, room_on};
+use crate::scene::Scene;
+
+/// Samples of a part of the image, about: enough for any device to be busy, few enough to stay in a CPU's last cache.
+const PART: u64 = 1 << 20;
+/// With one sample a pixel and no blur, memory is the only reason for parts.
+const SHARP_PART: u64 = 1 << 24;
+/// Parts do not get smaller than that to fit the memory.
+const LEAST_PART: u64 = 1 << 10;
+
+/// All that is known of an image before it is rendered.
+pub(crate) struct Passes<'a> {
+    scene: &'a Scene,
+    options: &'a RenderOptions,
+    /// The pixels that are wanted.
+    pub(crate) window: Window,
+    /// One view, or one a tuple.
+    pub(crate) views: Vec<(Frame, Vec<Object>)>,
+    tuples: Vec<Tuple>,
+    taps: Vec<Tap>,
+}
+
+impl<'a> Passes<'a> {
+    pub(crate) fn new(subject: Subject<'a>, options: &'a RenderOptions) -> Result<Self> {
+        let Subject { scene, shot, .. } = subject;
+        let window = options.window()?;
+        let samples = options.frame.samples;
+        let blur = options.blur.unwrap_or(scene.blur);
+        let tuples: Vec<Tuple> =
+            if shot.is_blurred(scene, &blur) { tuples(samples).collect() } else { Vec::new() };
+        let sharp = [(0.0, [0.0; 2])];
+        let moments: Vec<(f64, [f64; 2])> = tuples.iter().map(|tuple| (tuple.time, tuple.lens)).collect();
+        let moments = if moments.is_empty() { &sharp[..] } else { &moments };
+        let mut views = Vec::with_capacity(moments.len());
+        for moment in moments {
+            views.push(shot.view(scene, &options.frame, &blur, *moment)?);
+        }
+        Ok(Self { scene, options, window, views, tuples, taps: taps(options)? })
+    }
+
+    /// The unit normal, in world space, of what a pixel shows; zero if that is nothing.
+    pub(crate) fn normal(&self, subject: Subject<'_>, pixel: &Pixel) -> [f32; 3] {
+        if pixel.depth == 0 {
+            return [0.0; 3];
+        }
+        let (frame, objects) = &self.views[0];
+        let object = &objects[subject.patches[pixel.patch_id as usize].object as usize];
+        let normal = normal_at(frame, subject.patches, object, pixel.patch_id, pixel.u, pixel.v);
+        let to_world = subject.scene.camera.view.matrix3.transpose();
+        (to_world * Vec3::from(normal).as_dvec3()).as_vec3().to_array()
+    }
+
+    fn samples(&self) -> Samples {
+        self.options.frame.samples
+    }
+
+    /// The parts of the image, of about so many samples.
+    fn regions(&self, most: u64) -> Vec<Region> {
+        let (samples, margin) = (self.samples(), self.options.filter.margin());
+        let (width, height) = (self.options.frame.width, self.options.frame.height);
+        let parts = self.window.parts(most / u64::from(samples.count()));
+        parts
+            .map(|shown| Region { samples, window: shown.widened(margin, width, height), shown })
+            .collect()
+    }
+
+    /// The frame of a part, with all its samples.
+    fn frame(&self, region: Region) -> Frame {
+        let frame = Frame { taps: self.taps.len() as u32, ..self.views[0].0 };
+        frame.with_region(region, self.options.frame.tile)
+    }
+
+    /// Sizes that fit a device, and the parts of the image; `room` says what there is for the largest of them.
+    pub(crate) fn fitted(&self, room: impl Fn(Extent) -> Room) -> Result<(Sizes, Vec<Region>)> {
+        let is_plain = self.tuples.is_empty() && self.samples() == Samples::One;
+        let mut most = if is_plain { SHARP_PART } else { PART };
+        loop {
+            let regions = self.regions(most);
+            let areas = regions.iter().map(|region| Area::of(&self.frame(*region)));
+            let area = areas.fold(Area::default(), Area::and);
+            let extents = regions.iter().map(|region| Extent::of(&self.frame(*region), area.samples));
+            let extent = extents.reduce(larger).unwrap_or_default();
+            match chosen_sizes(self.scene, self.options, room(extent), area) {
+                Err(Error::Plan(PlanError::Budget { .. } | PlanError::TooLarge { .. }))
+                    if most > LEAST_PART =>
+                {
+                    most /= 4;
+                }
+                other => return other.map(|sizes| (sizes, regions)),
+            }
+        }
+    }
+
+    /// A plan that fits a device, the parts of the image, and what a user should be told.
+    pub(crate) fn plan_on<D: Device>(&self, device: &D) -> Result<(FramePlan, Vec<Region>, Vec<String>)> {
+        let (sizes, regions) = self.fitted(|extent| room_on(device, extent))?;
+        let frame = self.frame(regions[0]);
+        let notes = note_on(self.options, &sizes, room_on(device, Extent::of(&frame, 0)));
+        let plan = FramePlan::with_sizes(frame, sizes).map_err(Error::Plan)?;
+        Ok((plan.within(self.options.batch.budget()), regions, notes.into_iter().collect()))
+    }
+
+    /// Renders all parts onto the canvas.
+    pub(crate) fn run<D: Device>(
+        &self,
+        device: &mut D,
+        plan: &FramePlan,
+        buffers: &mut Buffers<D::Buffer>,
+        regions: &[Region],
+        canvas: &mut Canvas,
+        mut progress: impl FnMut(&Progress<'_>),
+    ) -> Result<Counts> {
+        let failed = |error: D::Error| Error::on_device(&error);
+        let mut counts = Counts::default();
+        for (index, region) in regions.iter().enumerate() {
+            let mut inner = |share: f64, counts: &Counts| {
+                progress(&Progress { share: (index as f64 + share) / regions.len() as f64, counts });
+            };
+            let frame = self.frame(*region);
+            plan.clear(device, buffers).map_err(failed)?;
+            let aimed = loop {
+                counts = counts.and(self.layer(device, plan, buffers, frame, &mut inner).map_err(failed)?);
+                let aimed = plan.aimed(device, buffers, frame, &self.views[0].1).map_err(failed)?;
+                if !self.scene.is_transparent() || !aimed.blend(device, buffers).map_err(failed)? {
+                    break aimed;
+                }
+            };
+            aimed.filter(device, buffers, &self.taps).map_err(failed)?;
+            canvas.take(device, &buffers.pixels, region.shown).map_err(failed)?;
+        }
+        Ok(counts)
+    }
+
+    /// Finds one layer of a part of the image: once, or at all moments.
+    fn layer<D: Device>(
+        &self,
+        device: &mut D,
+        plan: &FramePlan,
+        buffers: &mut Buffers<D::Buffer>,
+        frame: Frame,
+        progress: &mut impl FnMut(f64, &Counts),
+    ) -> std::result::Result<Counts, D::Error> {
+        let patches = self.scene.patch_count() as f64;
+        let mut counts = Counts::default();
+        for (index, (view, objects)) in self.views.iter().enumerate() {
+            let frame = match self.tuples.get(index) {
+                None => frame,
+                Some(tuple) => {
+                    let frame = Frame { taps: frame.taps, ..*view }.with_region(region_of(&frame, self.samples()), self.options.frame.tile);
+                    frame.with_tuple(self.samples(), *tuple)
+                }
+            };
+            let plan = plan.aimed(device, buffers, frame, objects)?;
+            let own = plan.run(device, buffers, |own| {
+                let share = (index as f64 + own.roots_taken as f64 / patches) / self.views.len() as f64;
+                progress(share, own);
+            })?;
+            counts = counts.and(own);
+        }
+        Ok(counts)
+    }
+}
+
+/// The region that a frame has all samples of.
+fn region_of(frame: &Frame, samples: Samples) -> Region {
+    let window = Window { left: frame.left, right: frame.right, top: frame.top, bottom: frame.bottom };
+    Region { samples, window, shown: window }
+}
+
+/// The larger of two extents.
+fn larger(a: Extent, b: Extent) -> Extent {
+    if u64::from(a.columns) * u64::from(a.rows) >= u64::from(b.columns) * u64::from(b.rows) { a } else { b }
+}
+
+/// The samples that a pixel is made of.
+fn taps(options: &RenderOptions) -> Result<Vec<Tap>> {
+    let filter = options.filter;
+    if !filter.is_sound() {
+        let problem = format!("a filter with a radius of {} pixels is not possible", filter.radius);
+        return Err(Error::scene(problem, format!("choose a radius from {MIN_RADIUS} to 4 pixels")));
+    }
+    let mut taps = vec![Tap::default(); MAX_TAPS];
+    let count = filter.taps(options.frame.samples, &mut taps);
+    taps.truncate(count);
+    Ok(taps)
+}
