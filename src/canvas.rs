@@ -11,7 +11,10 @@ use rayon::prelude::*;
 use crate::film::Film;
 use crate::image::{Encoder, Image};
 use crate::passes::Passes;
-use crate::render::{Subject, read_all};
+use crate::render::Subject;
+
+/// Rows that are read from the device and encoded at once.
+const ROWS: usize = 16;
 
 /// Pixels, encoded as they come, and as they are if somebody wants them.
 pub(crate) struct Canvas {
@@ -20,7 +23,7 @@ pub(crate) struct Canvas {
     background: Vec3,
     rgb: Vec<u8>,
     pixels: Vec<Pixel>,
-    /// Time that encoding took.
+    /// Time that reading and encoding took.
     pub(crate) seconds: f64,
 }
 
@@ -40,20 +43,29 @@ impl Canvas {
         buffer: &D::Buffer,
         part: Window,
     ) -> Result<(), D::Error> {
-        let pixels: Vec<Pixel> = read_all(device, buffer, part.pixels() as usize)?;
         let start = Instant::now();
-        let width = self.window.width() as usize;
-        let (first_row, first_column) =
-            ((part.top - self.window.top) as usize, (part.left - self.window.left) as usize);
-        for (row, pixels) in pixels.chunks_exact(part.width() as usize).enumerate() {
-            let at = (first_row + row) * width + first_column;
-            self.encoder.encode_row(pixels, &mut self.rgb[3 * at..]);
-            if let Some(kept) = self.pixels.get_mut(at..at + pixels.len()) {
-                kept.copy_from_slice(pixels);
+        let wide = part.width() as usize;
+        let mut block = vec![Pixel::default(); wide * ROWS.min(part.height() as usize)];
+        let first = (part.left - self.window.left) as usize;
+        for top in (part.top..part.bottom).step_by(ROWS) {
+            let rows = ROWS.min((part.bottom - top) as usize);
+            let block = &mut block[..rows * wide];
+            device.read(buffer, u64::from(top - part.top) * wide as u64, block)?;
+            for (row, pixels) in block.chunks_exact(wide).enumerate() {
+                let row = (top - self.window.top) as usize + row;
+                self.put(row * self.window.width() as usize + first, pixels);
             }
         }
         self.seconds += start.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    /// Takes pixels of a row, from one of the canvas on.
+    fn put(&mut self, at: usize, pixels: &[Pixel]) {
+        self.encoder.encode_row(pixels, &mut self.rgb[3 * at..]);
+        if let Some(kept) = self.pixels.get_mut(at..at + pixels.len()) {
+            kept.copy_from_slice(pixels);
+        }
     }
 
     /// What it shows as linear values.

@@ -20,7 +20,7 @@ use crate::scene::Scene;
 /// Samples of a part of the image, about: enough for any device to be busy, few enough to stay in a CPU's last cache.
 const PART: u64 = 1 << 20;
 /// With one sample a pixel and no blur, memory is the only reason for parts.
-const SHARP_PART: u64 = 1 << 24;
+const SHARP_PART: u64 = 1 << 22;
 /// Parts do not get smaller than that to fit the memory.
 const LEAST_PART: u64 = 1 << 10;
 
@@ -75,9 +75,7 @@ impl<'a> Passes<'a> {
         let (samples, margin) = (self.samples(), self.options.filter.margin());
         let (width, height) = (self.options.frame.width, self.options.frame.height);
         let parts = self.window.parts(most / u64::from(samples.count()));
-        parts
-            .map(|shown| Region { samples, window: shown.widened(margin, width, height), shown })
-            .collect()
+        parts.map(|shown| Region { samples, window: shown.widened(margin, width, height), shown }).collect()
     }
 
     /// The frame of a part, with all its samples.
@@ -133,7 +131,9 @@ impl<'a> Passes<'a> {
                 progress(&Progress { share: (index as f64 + share) / regions.len() as f64, counts });
             };
             let frame = self.frame(*region);
-            plan.clear(device, buffers).map_err(failed)?;
+            if index > 0 {
+                plan.clear(device, buffers).map_err(failed)?; // new buffers are clear
+            }
             let aimed = loop {
                 counts = counts.and(self.layer(device, plan, buffers, frame, &mut inner).map_err(failed)?);
                 let aimed = plan.aimed(device, buffers, frame, &self.views[0].1).map_err(failed)?;
@@ -162,7 +162,8 @@ impl<'a> Passes<'a> {
             let frame = match self.tuples.get(index) {
                 None => frame,
                 Some(tuple) => {
-                    let frame = Frame { taps: frame.taps, ..*view }.with_region(region_of(&frame, self.samples()), self.options.frame.tile);
+                    let frame = Frame { taps: frame.taps, ..*view }
+                        .with_region(region_of(&frame, self.samples()), self.options.frame.tile);
                     frame.with_tuple(self.samples(), *tuple)
                 }
             };

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use micropoly::core::abi::{Layout, Shared};
 use micropoly::core::backend::Device;
 use micropoly::core::error::PlanError;
-use micropoly::core::stage::{Items, Stage};
+use micropoly::core::stage::{Extent, Items, Stage};
 use micropoly::devices::{Job, devices_of, with_device};
 use micropoly::{
     Backend, Batch, Error, FrameOptions, RenderOptions, Rendering, Result, Scene, Scheduler, render_on,
@@ -40,7 +40,7 @@ impl<D: Device> Device for Watched<D> {
         self.device.bytes_allocated()
     }
 
-    fn own_bytes(&self, _: u32, _: u32, _: u32) -> u64 {
+    fn own_bytes(&self, _: Extent) -> u64 {
         OWN
     }
 
@@ -59,6 +59,10 @@ impl<D: Device> Device for Watched<D> {
 
     fn copy(&mut self, from: &D::Buffer, to: &D::Buffer, entries: u64) -> std::result::Result<(), D::Error> {
         self.device.copy(from, to, entries)
+    }
+
+    fn clear(&mut self, buffer: &D::Buffer) -> std::result::Result<(), D::Error> {
+        self.device.clear(buffer)
     }
 
     fn dispatch(

@@ -35,17 +35,17 @@ fn exr_files_hold_colour_coverage_depth_and_patch() {
         let read = Picture::load(&path).expect("is read");
         assert_eq!((read.width, read.height), (96, 54));
         for (k, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
-            for (colour, value) in film.colours.iter().zip(&read.channels[name]) {
-                let wanted = f64::from(colour.rgba[k]);
+            for (pixel, value) in film.pixels.iter().zip(&read.channels[name]) {
+                let wanted = f64::from(pixel.rgba[k]);
                 assert!((wanted - value).abs() <= within * wanted, "{name}: {value}");
             }
         }
-        for (k, sample) in film.samples.iter().enumerate() {
+        for (k, pixel) in film.pixels.iter().enumerate() {
             let (depth, patch) = (read.channels["Z"][k], read.channels["patch"][k]);
             let is_there = read.channels["A"][k] > 0.0;
             assert_eq!(is_there, depth.is_finite());
-            assert_eq!(patch, f64::from(if is_there { sample.patch_id } else { u32::MAX }));
-            assert_eq!(depth, f64::from(1.0 / f32::from_bits(sample.depth)));
+            assert_eq!(patch, f64::from(if is_there { pixel.patch_id } else { u32::MAX }));
+            assert_eq!(depth, f64::from(1.0 / f32::from_bits(pixel.depth)));
         }
     }
 }
@@ -97,7 +97,7 @@ fn frames_are_those_of_the_path() {
         assert!(found == std::fs::read(&expected).expect("a file"), "frame {frame}");
     }
     for (scene, frames, what) in [
-        ("scenes/teapot.toml", "0..1", "has no path"),
+        ("scenes/teapot.toml", "0..1", "nothing moves"),
         ("scenes/city.toml", "5..4", "the first no larger than the second"),
         ("scenes/city.toml", "0..100000", "has no frame"),
         ("scenes/city.toml", "0..4294967295", "has no frame"),

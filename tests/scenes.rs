@@ -6,8 +6,8 @@ use micropoly::bench::{Plan, Views, devices, spike};
 use micropoly::core::camera::{Camera, Light, Material};
 use micropoly::generate::{Generator, generate};
 use micropoly::{
-    Backend, BezierPatch, FrameOptions, Image, RenderOptions, Rendering, Scene, SceneObject, Scheduler,
-    render,
+    Backend, BezierPatch, Blur, FrameOptions, Image, Motion, RenderOptions, Rendering, Scene, SceneObject,
+    Scheduler, render,
 };
 
 fn render_at(scene: &Scene, width: u32, height: u32, bound: f32) -> Rendering {
@@ -33,11 +33,12 @@ fn ball(camera: Camera) -> Scene {
     for point in patches.iter_mut().flat_map(|patch| &mut patch.points) {
         *point = [0, 1, 2].map(|k| (2.0 * point[k] - low[k] - high[k]) / (high[k] - low[k]));
     }
-    let material = Material { colour: glam::Vec3::ONE, specular: 0.0, gloss: 0 };
+    let material = Material { colour: glam::Vec3::ONE, specular: 0.0, gloss: 0, opacity: 1.0 };
     Scene {
         name: "ball".into(),
         camera,
         path: None,
+        blur: Blur::default(),
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.5),
         lights: vec![Light::Point { position: glam::DVec3::ZERO, colour: glam::Vec3::splat(0.5) }],
@@ -47,6 +48,7 @@ fn ball(camera: Camera) -> Scene {
             to_world: glam::DAffine3::IDENTITY,
             material,
             displacement: None,
+            motion: Motion::default(),
         }],
     }
 }

@@ -1,7 +1,7 @@
 //! Extreme but legal scenes: they end in an image, whatever their numbers, and the same one every time.
 
 use micropoly::core::camera::{Camera, Light, Material};
-use micropoly::{Batch, BezierPatch, FrameOptions, RenderOptions, Scene, SceneObject, render};
+use micropoly::{Batch, BezierPatch, Blur, FrameOptions, Motion, RenderOptions, Scene, SceneObject, render};
 
 /// A number of any sign and magnitude between 10^`low` and 10^`high`, or zero.
 fn extreme(random: &mut fastrand::Rng, low: f64, high: f64) -> f64 {
@@ -23,12 +23,14 @@ fn extreme_scene(random: &mut fastrand::Rng) -> Option<Scene> {
     let fov = [0.001, 1.0, 50.0, 179.0][random.usize(0..4)];
     let near = [1.0e-6, 1.0e-3, 0.1, 10.0, 1.0e12][random.usize(0..5)];
     let camera = Camera::look_at(eye, target, glam::DVec3::new(0.1, 0.2, 1.0), fov, near)?;
-    let material = Material { colour: glam::Vec3::ONE, specular: 1.0, gloss: random.u32(0..=10) };
+    let material =
+        Material { colour: glam::Vec3::ONE, specular: 1.0, gloss: random.u32(0..=10), opacity: 1.0 };
     let light = Light::Point { position: target, colour: glam::Vec3::splat(random.f32()) };
     Some(Scene {
         name: "extreme".into(),
         camera,
         path: None,
+        blur: Blur::default(),
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.1),
         lights: vec![light],
@@ -38,6 +40,7 @@ fn extreme_scene(random: &mut fastrand::Rng) -> Option<Scene> {
             to_world: glam::DAffine3::IDENTITY,
             material,
             displacement: None,
+            motion: Motion::default(),
         }],
     })
 }

@@ -11,7 +11,8 @@ use micropoly::core::num::dot3;
 use micropoly::generate::{Generator, generate};
 use micropoly::mesh::{Format, Mesh};
 use micropoly::{
-    Backend, Batch, BezierPatch, Camera, FrameOptions, RenderOptions, Scene, SceneObject, Scheduler, render,
+    Backend, Batch, BezierPatch, Camera, FrameOptions, Motion, RenderOptions, Scene, SceneObject, Scheduler,
+    render,
 };
 
 const CAMERAS: u64 = 200;
@@ -284,10 +285,16 @@ fn objects_are_placed_in_the_world_and_triangles_face_as_their_normals_do() {
         glam::DQuat::from_rotation_x(0.7),
         DVec3::new(10.0, 20.0, 30.0),
     );
-    let material = Material { colour: Vec3::ONE, specular: 0.0, gloss: 0 };
+    let material = Material { colour: Vec3::ONE, specular: 0.0, gloss: 0, opacity: 1.0 };
     let SceneObject { patches, .. } = scene.objects.remove(0);
-    scene.objects =
-        vec![SceneObject { patches, gregory: Vec::new(), to_world, material, displacement: None }];
+    scene.objects = vec![SceneObject {
+        patches,
+        gregory: Vec::new(),
+        to_world,
+        material,
+        displacement: None,
+        motion: Motion::default(),
+    }];
     (scene.camera, _) = look_around(&scene, &mut fastrand::Rng::with_seed(74));
     let mesh = mesh_of(&scene, &small());
     assert_eq!(mesh.open_edges(), 0);

@@ -9,10 +9,12 @@ use micropoly_core::abi::{
 };
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::kernel::bound_lanes::{Lanes, bound_lanes};
+use micropoly_core::kernel::dense::Pattern;
 use micropoly_core::kernel::{
     bound::bound, dice::Grid, dice::dice, sample::Band, sample::sample, shade::shade,
 };
 use micropoly_core::patch::Net;
+use micropoly_core::pattern::{Region, Samples};
 use multiversion::multiversion;
 
 struct Ball {
@@ -29,7 +31,7 @@ fn ball() -> Ball {
         Camera::look_at(DVec3::new(1.0, -3.0, 1.5), DVec3::ZERO, DVec3::Z, 40.0, 0.1).expect("a view");
     let lights = [Light::Directional { to_light: DVec3::new(-1.0, -1.0, 2.0), colour: Vec3::ONE }];
     let frame = camera.frame(&FrameOptions::default(), Vec3::splat(0.1), &lights);
-    let material = Material { colour: Vec3::new(0.7, 0.3, 0.2), specular: 0.3, gloss: 5 };
+    let material = Material { colour: Vec3::new(0.7, 0.3, 0.2), specular: 0.3, gloss: 5, opacity: 1.0 };
     let object = camera.object(DAffine3::IDENTITY, &material);
     let patches: Vec<Patch> = (0..8).map(octant).collect();
     let mut stack: Vec<Surface> = (0..8).map(Surface::root).collect();
@@ -89,9 +91,9 @@ fn shade_all(ball: &Ball, grids: &mut [Grid]) {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+avx2", "x86_64+avx2"))]
-fn sample_all(ball: &Ball, grids: &[Grid], band: &mut Band<'_>) {
+fn sample_all(ball: &Ball, pattern: &Pattern, grids: &[Grid], band: &mut Band<'_>) {
     for (draw, grid) in ball.draws.iter().zip(grids) {
-        sample(&ball.frame, *draw, grid, band);
+        sample(&ball.frame, pattern, (*draw, 1.0), grid, band);
     }
 }
 
@@ -119,20 +121,30 @@ fn stages(criterion: &mut Criterion) {
     let mut grids = vec![Grid::default(); some.draws.len()];
     dice_all(&some, &mut grids);
     shade_all(&some, &mut grids);
-    let Frame { width, height, .. } = some.frame;
-    let pixels = (width * height) as usize;
-    let mut colours = vec![Colour::default(); pixels];
     group.throughput(Throughput::Elements(micropolygons));
-    group.bench_function("sample (micropolygons)", |bencher| {
-        bencher.iter_batched_ref(
-            || vec![Sample::default(); pixels],
-            |samples| {
-                let mut band = Band { width, height, first_row: 0, samples, colours: &mut colours };
-                sample_all(&some, &grids, &mut band);
-            },
-            BatchSize::LargeInput,
-        );
-    });
+    for samples in [Samples::One, Samples::Four, Samples::Sixteen] {
+        let Frame { width, height, .. } = some.frame;
+        let frame = some.frame.with_region(Region::whole(width, height, samples), 0);
+        let some = Ball {
+            frame,
+            draws: some.draws.clone(),
+            patches: some.patches.clone(),
+            bounded: Vec::new(),
+            ..some
+        };
+        let (pattern, count) = (Pattern::new(&frame), frame.sample_count() as usize);
+        let mut colours = vec![Colour::default(); count];
+        group.bench_function(format!("sample, {} a pixel (micropolygons)", samples.count()), |bencher| {
+            bencher.iter_batched_ref(
+                || vec![Sample::default(); count],
+                |samples| {
+                    let mut band = Band::whole(&frame, samples, &mut colours);
+                    sample_all(&some, &pattern, &grids, &mut band);
+                },
+                BatchSize::LargeInput,
+            );
+        });
+    }
     group.finish();
 }
 

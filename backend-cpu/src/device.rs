@@ -10,7 +10,7 @@ use micropoly_core::error::PlanError;
 use micropoly_core::stage::{Extent, Items, Stage};
 
 use crate::buffer::CpuBuffer;
-use crate::draw::Steps;
+use crate::draw::{Lists, Steps};
 use crate::sort_last::{self, Keys};
 use crate::{draw, local, pixels, stages};
 
@@ -84,6 +84,8 @@ impl From<PlanError> for CpuError {
 pub struct CpuDevice {
     pool: rayon::ThreadPool,
     allocated: Arc<AtomicU64>,
+    /// Of the sort-middle rasteriser.
+    lists: Lists,
     /// Of the sort-last rasteriser.
     keys: Keys,
     steps: Option<Steps>,
@@ -100,7 +102,8 @@ impl CpuDevice {
             .build()
             .map_err(|error| CpuError::Threads(error.to_string()))?;
         let allocated = Arc::default();
-        Ok(Self { pool, keys: Keys::new(&allocated), allocated, steps: None })
+        let (lists, keys) = (Lists::new(&allocated), Keys::new(&allocated));
+        Ok(Self { pool, lists, keys, allocated, steps: None })
     }
 
     /// From now on takes the time of each step of drawing.
@@ -153,7 +156,7 @@ impl Device for CpuDevice {
     }
 
     fn own_bytes(&self, extent: Extent) -> u64 {
-        draw::own_bytes(&extent) + if extent.sort_last { sort_last::own_bytes(&extent) } else { 0 }
+        if extent.sort_last { sort_last::own_bytes(&extent) } else { draw::own_bytes(&extent) }
     }
 
     fn clear(&mut self, buffer: &CpuBuffer) -> Result<(), CpuError> {
@@ -180,7 +183,7 @@ impl Device for CpuDevice {
             (Stage::Balance, _) => local::balance(buffers),
             (Stage::Deal, Items::Groups(count)) => local::deal(buffers, count),
             (Stage::Draw, Items::Image(_)) => {
-                draw::draw(&self.pool, threads, buffers, self.steps.as_ref())
+                draw::draw(&self.pool, threads, buffers, &mut self.lists, self.steps.as_ref())
             }
             (Stage::SortLast, Items::Image(extent)) => {
                 sort_last::sort_last(&self.pool, buffers, &extent, &mut self.keys)

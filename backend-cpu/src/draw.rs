@@ -3,6 +3,7 @@
 //! tiles is diced in each of them, and every sample has one writer.
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -26,7 +27,7 @@ const BANDS_A_THREAD: usize = 4;
 /// Rows of samples of such a tile, at least.
 const BAND_ROWS: usize = 32;
 /// Most entries of the lists of all tiles; more draws than that are sorted in several passes.
-const MOST_ENTRIES: usize = 1 << 20;
+const MOST_ENTRIES: usize = 1 << 16;
 
 /// Time that the steps took, of all threads together, in nanoseconds.
 #[derive(Debug, Default)]
@@ -99,18 +100,42 @@ pub(crate) fn samples_of(frame: &Frame, draw: Draw) -> [i32; 4] {
     [left, right, top, bottom]
 }
 
-/// Tiles, row after row, and the draws of each, as numbers.
-struct Tiles {
-    columns: usize,
-    /// Columns and rows of samples of a tile.
-    side: [usize; 2],
+/// The draws of each tile, as numbers; kept from frame to frame.
+#[derive(Debug)]
+pub(crate) struct Lists {
     /// Where each tile's list starts, and where the last one ends.
     starts: Vec<u32>,
     list: Vec<u32>,
+    /// Bytes that were told of.
+    bytes: u64,
+    allocated: Arc<AtomicU64>,
 }
 
-impl Tiles {
-    fn new(frame: &Frame, threads: usize) -> Self {
+impl Lists {
+    pub(crate) fn new(allocated: &Arc<AtomicU64>) -> Self {
+        Self { starts: Vec::new(), list: Vec::new(), bytes: 0, allocated: Arc::clone(allocated) }
+    }
+
+    /// Makes room for all that a frame can need, once for all its draws.
+    fn fit(&mut self, extent: &Extent) {
+        let bytes = own_bytes(extent);
+        if bytes > self.bytes {
+            self.allocated.fetch_add(bytes - self.bytes, Ordering::Relaxed);
+            self.bytes = bytes;
+        }
+    }
+}
+
+/// Tiles, row after row.
+struct Tiles<'a> {
+    columns: usize,
+    /// Columns and rows of samples of a tile.
+    side: [usize; 2],
+    lists: &'a mut Lists,
+}
+
+impl<'a> Tiles<'a> {
+    fn new(frame: &Frame, threads: usize, lists: &'a mut Lists) -> Self {
         let extent = Extent::of(frame, 0);
         let (wide, high) = (extent.columns as usize, extent.rows as usize);
         let side = match frame.tile_bits {
@@ -119,7 +144,9 @@ impl Tiles {
             bits => [1 << bits; 2],
         };
         let (columns, rows) = (wide.div_ceil(side[0]), high.div_ceil(side[1]));
-        Self { columns, side, starts: vec![0; columns * rows + 1], list: Vec::new() }
+        lists.fit(&extent);
+        lists.starts.resize(columns * rows + 1, 0);
+        Self { columns, side, lists }
     }
 
     /// Columns and rows of tiles that a draw can touch.
@@ -135,7 +162,7 @@ impl Tiles {
 
     /// Counts the draws of each tile; gives the number of draws whose entries fit the lists, one at least.
     fn count(&mut self, frame: &Frame, draws: &[Draw]) -> usize {
-        self.starts.fill(0);
+        self.lists.starts.fill(0);
         let mut entries = 0;
         for (index, draw) in draws.iter().enumerate() {
             let [left, right, top, bottom] = self.touched(frame, *draw);
@@ -145,7 +172,7 @@ impl Tiles {
             }
             entries += more;
             for row in top..bottom {
-                for count in &mut self.starts[row * self.columns..][left..right] {
+                for count in &mut self.lists.starts[row * self.columns..][left..right] {
                     *count += 1;
                 }
             }
@@ -156,19 +183,19 @@ impl Tiles {
     /// Turns counts into places (scan), and writes each draw's number into the lists of its tiles.
     fn write(&mut self, frame: &Frame, draws: &[Draw]) {
         let mut end = 0;
-        for start in &mut self.starts {
+        for start in &mut self.lists.starts {
             end += *start;
             *start = end;
         }
-        self.list.resize(end as usize, 0);
+        self.lists.list.resize(end as usize, 0);
         // From the last to the first, so that each start ends where its list begins, and lists are in order.
         for (index, draw) in draws.iter().enumerate().rev() {
             let [left, right, top, bottom] = self.touched(frame, *draw);
             for row in top..bottom {
                 for column in left..right {
-                    let start = &mut self.starts[row * self.columns + column];
+                    let start = &mut self.lists.starts[row * self.columns + column];
                     *start -= 1;
-                    self.list[*start as usize] = index as u32;
+                    self.lists.list[*start as usize] = index as u32;
                 }
             }
         }
@@ -176,7 +203,8 @@ impl Tiles {
 
     fn list(&self, row: usize, column: usize) -> &[u32] {
         let tile = row * self.columns + column;
-        &self.list[self.starts[tile] as usize..self.starts[tile + 1] as usize]
+        let Lists { starts, list, .. } = &*self.lists;
+        &list[starts[tile] as usize..starts[tile + 1] as usize]
     }
 
     /// Columns and rows of samples of a tile.
@@ -195,7 +223,7 @@ impl Tiles {
 pub(crate) fn own_bytes(extent: &Extent) -> u64 {
     let tile = 1_u64 << extent.tile_bits;
     let tiles = match extent.tile_bits {
-        0 => 64, // one or a few a thread
+        0 => u64::from(extent.rows), // bands of several rows each
         _ => u64::from(extent.columns).div_ceil(tile) * u64::from(extent.rows).div_ceil(tile),
     };
     (tiles + 1 + tiles.max(MOST_ENTRIES as u64)) * size_of::<u32>() as u64
@@ -205,6 +233,7 @@ pub(crate) fn draw(
     pool: &rayon::ThreadPool,
     threads: usize,
     buffers: Buffers<'_, '_>,
+    lists: &mut Lists,
     steps: Option<&Steps>,
 ) -> Result<(), CpuError> {
     let frame = buffers[0].view::<Frame>()?[0];
@@ -215,13 +244,14 @@ pub(crate) fn draw(
     let behind = buffers[5].view::<Sample>()?;
     let (mut samples, mut colours) = (buffers[6].view_mut::<Sample>()?, buffers[7].view_mut::<Colour>()?);
     let mut draws = &draws[..(control.waiting + control.fresh) as usize];
-    if draws.is_empty() || frame.sample_left >= frame.sample_right || frame.sample_top >= frame.sample_bottom {
+    if draws.is_empty() || frame.sample_left >= frame.sample_right || frame.sample_top >= frame.sample_bottom
+    {
         return Ok(());
     }
     let (objects, patches, behind) = (&*objects, &*patches, &*behind);
     let (samples, colours) = (&mut *samples, &mut *colours);
     let pattern = Pattern::new(&frame);
-    let mut tiles = Tiles::new(&frame, threads);
+    let mut tiles = Tiles::new(&frame, threads, lists);
     while !draws.is_empty() {
         let mut clock = Clock::start(steps);
         let fitting = tiles.count(&frame, draws);

@@ -13,11 +13,7 @@ use crate::stages::Buffers;
 /// Samples that one thread blends at a time.
 const BLEND_CHUNK: usize = 1 << 14;
 
-pub(crate) fn blend(
-    pool: &rayon::ThreadPool,
-    buffers: Buffers<'_, '_>,
-    count: u32,
-) -> Result<(), CpuError> {
+pub(crate) fn blend(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>, count: u32) -> Result<(), CpuError> {
     let mut samples = buffers[0].view_mut::<Sample>()?;
     let colours = buffers[1].view::<Colour>()?;
     let (mut behind, mut front) = (buffers[2].view_mut::<Sample>()?, buffers[3].view_mut::<Sample>()?);

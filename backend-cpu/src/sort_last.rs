@@ -61,21 +61,27 @@ impl Key {
 #[derive(Debug)]
 pub(crate) struct Keys {
     keys: Vec<Key>,
+    grids: Vec<Grid>,
+    /// Bytes that were told of.
+    bytes: u64,
     allocated: Arc<AtomicU64>,
 }
 
 impl Keys {
     pub(crate) fn new(allocated: &Arc<AtomicU64>) -> Self {
-        Self { keys: Vec::new(), allocated: Arc::clone(allocated) }
+        Self { keys: Vec::new(), grids: Vec::new(), bytes: 0, allocated: Arc::clone(allocated) }
     }
 
-    fn of(&mut self, samples: usize) -> &[Key] {
-        if self.keys.len() < samples {
-            let more = samples - self.keys.len();
-            self.allocated.fetch_add((more * size_of::<Key>()) as u64, Ordering::Relaxed);
-            self.keys.resize_with(samples, Key::new);
+    /// Makes room for all that a frame can need, once for all its draws.
+    fn fit(&mut self, extent: &Extent) {
+        let bytes = own_bytes(extent);
+        if bytes > self.bytes {
+            self.allocated.fetch_add(bytes - self.bytes, Ordering::Relaxed);
+            self.bytes = bytes;
         }
-        &self.keys[..samples]
+        let samples = extent.samples as usize;
+        self.keys.resize_with(samples.max(self.keys.len()), Key::new);
+        self.grids.resize_with(CHUNK, Grid::default);
     }
 }
 
@@ -169,16 +175,16 @@ pub(crate) fn sort_last(
     }
     let (objects, patches, behind) = (&*objects, &*patches, &*behind);
     let (samples, colours) = (&mut *samples, &mut *colours);
-    let keys = keys.of(samples.len());
+    keys.fit(extent);
+    let Keys { keys, grids, .. } = keys;
+    let keys = &keys[..samples.len()];
     let pattern = Pattern::new(&frame);
-    let mut grids: Vec<Grid> = Vec::new();
     for draws in draws.chunks(CHUNK) {
         let scene = Scene { frame: &frame, objects, patches, draws };
-        grids.resize_with(draws.len().max(grids.len()), Grid::default);
         pool.install(|| {
-            draws.par_iter().zip(&mut grids).for_each(|(draw, grid)| dice_one(scene, *draw, grid));
+            draws.par_iter().zip(&mut *grids).for_each(|(draw, grid)| dice_one(scene, *draw, grid));
             for turn in [Turn::Depth, Turn::Patch, Turn::U, Turn::V] {
-                draws.par_iter().zip(&grids).for_each(|(draw, grid)| {
+                draws.par_iter().zip(&*grids).for_each(|(draw, grid)| {
                     let mut target = Merge { frame: &frame, turn, keys, behind };
                     merge_one(scene, &pattern, *draw, grid, &mut target);
                 });
@@ -186,9 +192,8 @@ pub(crate) fn sort_last(
             for_each_band(&frame, MERGE_ROWS, (&[], samples, colours), |index, band| {
                 let start = index * MERGE_ROWS * frame.place_row as usize;
                 let (samples, colours, limits) = (band.samples, band.colours, band.limits);
-                let mut target =
-                    Show { limits, start, frame: &frame, keys, samples: &*samples, colours };
-                show_all(scene, &pattern, &grids, &mut target);
+                let mut target = Show { limits, start, frame: &frame, keys, samples: &*samples, colours };
+                show_all(scene, &pattern, grids, &mut target);
                 for (key, sample) in keys[start..].iter().zip(samples) {
                     *sample = merge(key.sample(), *sample).0;
                     key.forget();

@@ -9,9 +9,10 @@ use std::ops::RangeInclusive;
 use bytemuck::NoUninit;
 use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{
-    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_LAYERS, FLAG_SMOOTH, FLAG_WEBER, Frame,
-    Limits, MAX_LEVELS, MAX_OCTAVES, MAX_RATE, MAX_SPLITS, MeshPlace, MeshTotals, MeshVertex, OPAQUE_DEPTH, Object,
-    PARAM_BITS, PARAM_ONE, Patch, Pixel, SPLIT_U, SPLIT_V, Sample, Shared, Slot, Surface, Tap, Verdict,
+    CULL, Colour, Control, DRAW, DRAW_LIMITED, Draw, FLAG_CULL_BACKFACES, FLAG_LAYERS, FLAG_SMOOTH,
+    FLAG_WEBER, Frame, Limits, MAX_LEVELS, MAX_OCTAVES, MAX_RATE, MAX_SPLITS, MeshPlace, MeshTotals,
+    MeshVertex, OPAQUE_DEPTH, Object, PARAM_BITS, PARAM_ONE, Patch, Pixel, SPLIT_U, SPLIT_V, Sample, Shared,
+    Slot, Surface, Tap, Verdict,
 };
 use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::border::{SIDES, Side};

@@ -3,8 +3,8 @@
 //! Trigonometry comes from `libm`, so that a scene gives the same bits on every platform.
 
 use crate::abi::{
-    FLAG_CULL_BACKFACES, FLAG_FIXED, FLAG_NAIVE, FLAG_SMOOTH, FLAG_SORT_LAST, FLAG_WEBER, FLAG_WHOLE, Frame, MAX_FOCAL,
-    MAX_LEVELS, MAX_LIGHTS, MIN_NEAR, Object,
+    FLAG_CULL_BACKFACES, FLAG_FIXED, FLAG_NAIVE, FLAG_SMOOTH, FLAG_SORT_LAST, FLAG_WEBER, FLAG_WHOLE, Frame,
+    MAX_FOCAL, MAX_LEVELS, MAX_LIGHTS, MIN_NEAR, Object,
 };
 use crate::pattern::{Region, Samples};
 use glam::{DAffine3, DMat3, DVec3, Vec3};

@@ -6,8 +6,8 @@
 //! that wait are counted, not stored, so `n` has no part in it. `docs/proofs/stack.md` has the proof.
 
 use crate::abi::{
-    Colour, Control, Draw, FLAG_LAYERS, Frame, Group, LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Limits, MAX_LEVELS,
-    MAX_RESOLUTION, Object, Patch, Pixel, Sample, Slot, Surface, Tap, Verdict,
+    Colour, Control, Draw, FLAG_LAYERS, Frame, Group, LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Limits,
+    MAX_LEVELS, MAX_RESOLUTION, Object, Patch, Pixel, Sample, Slot, Surface, Tap, Verdict,
 };
 use crate::error::PlanError;
 use crate::schedule::Scheduler;
@@ -286,7 +286,6 @@ impl Sizes {
     pub const fn draw_entries(&self) -> u64 {
         self.draws_at_once() * self.batches_a_draw() as u64
     }
-
 
     /// Bytes of everything that does not depend on batch and scheduler: scene, and what of the image is worked on.
     #[must_use]

@@ -123,9 +123,8 @@ impl Window {
         let columns = u64::from(self.width()).div_ceil(side).max(1);
         let wide = u64::from(self.width()).div_ceil(columns).max(1);
         let rows = u64::from(self.height()).div_ceil((most / wide).max(1)).max(1);
-        let cut = |from: u32, length: u32, part: u64, parts: u64| {
-            from + (u64::from(length) * part / parts) as u32
-        };
+        let cut =
+            |from: u32, length: u32, part: u64, parts: u64| from + (u64::from(length) * part / parts) as u32;
         (0..rows * columns).map(move |part| {
             let (row, column) = (part / columns, part % columns);
             Self {
@@ -275,7 +274,8 @@ pub fn tuples(samples: Samples) -> impl Iterator<Item = Tuple> {
         let own = reversed(mixed(sample, samples.bits()), 2 * samples.bits());
         let shift = reversed(mixed(pixel, period), 2 * period);
         let time = (f64::from(own * (TUPLES / count) + shift) + 0.5) / f64::from(TUPLES);
-        let square = sequence(own + count * shift).map(|k| (f64::from(k) + 0.5) / f64::from(TUPLES) * 2.0 - 1.0);
+        let square =
+            sequence(own + count * shift).map(|k| (f64::from(k) + 0.5) / f64::from(TUPLES) * 2.0 - 1.0);
         Tuple { time, lens: on_disk(square), sample, pixel: at }
     })
 }
@@ -283,7 +283,9 @@ pub fn tuples(samples: Samples) -> impl Iterator<Item = Tuple> {
 /// Bits of column and row of a number in a square of `1 << bits` columns, taking turns.
 fn mixed(index: u32, bits: u32) -> u32 {
     let (column, row) = (index & ((1 << bits) - 1), index >> bits);
-    (0..bits).fold(0, |out, bit| out | ((column ^ row) >> bit & 1) << (2 * bit + 1) | (row >> bit & 1) << (2 * bit))
+    (0..bits).fold(0, |out, bit| {
+        out | ((column ^ row) >> bit & 1) << (2 * bit + 1) | (row >> bit & 1) << (2 * bit)
+    })
 }
 
 /// The lowest `bits` bits in reverse order.

@@ -2,8 +2,8 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    Colour, Control, Draw, FLAG_SORT_LAST, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch,
-    Pixel, Question, Sample, Shared, Slot, Surface, Tap, Verdict,
+    Colour, Control, Draw, FLAG_SORT_LAST, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex,
+    Object, Patch, Pixel, Question, Sample, Shared, Slot, Surface, Tap, Verdict,
 };
 
 /// How a stage uses a buffer.

@@ -6,7 +6,7 @@ use common::{exact_point, random, random_patch, random_surface, random_view};
 use micropoly_core::abi::{CULL, DRAW, DRAW_LIMITED, Draw, Frame, SPLIT_U, SPLIT_V, Surface, Verdict};
 use micropoly_core::kernel::bound::bound;
 use micropoly_core::kernel::dice::{Grid, dice};
-use micropoly_core::kernel::triangle::pixels_between;
+use micropoly_core::kernel::triangle::samples_between;
 use micropoly_core::patch::Net;
 use micropoly_core::patch::bezier::param;
 
@@ -78,7 +78,7 @@ fn drawn_surfaces_are_within_the_bound_and_their_vertices_within_the_box() {
             continue;
         }
         for at in 0..grid.stride * grid.rows {
-            let (first, end) = (pixels_between(grid.y[at], grid.y[at]), verdict.rows);
+            let (first, end) = (samples_between(&frame, grid.y[at], grid.y[at]), verdict.rows);
             let (top, bottom) = ((end & 0xffff) as i32, (end >> 16) as i32);
             let outside = first.1 <= 0 || first.0 >= frame.height as i32;
             assert!(outside || (first.0 >= top && first.1 <= bottom), "round {round}: row {first:?}");

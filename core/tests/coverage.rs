@@ -4,13 +4,26 @@
 mod common;
 
 use micropoly_core::abi::{Colour, Draw, Frame, Sample, Surface};
+use micropoly_core::kernel::dense::Pattern;
 use micropoly_core::kernel::dice::{GRID, Grid};
 use micropoly_core::kernel::project::Vertex;
 use micropoly_core::kernel::quads::{FOUND, GENERAL, NOTHING, Quads};
 use micropoly_core::kernel::sample::{Band, sample};
-use micropoly_core::kernel::triangle::{pixels_between, sample_triangle};
+use micropoly_core::kernel::triangle::{sample_triangle, samples_between, site};
+use micropoly_core::pattern::{Region, Samples};
 
 const SIZE: i32 = 24;
+
+fn frame(rate: u32) -> Frame {
+    let size = SIZE as u32;
+    let frame = Frame { width: size, height: size, rate, ..Frame::default() };
+    frame.with_region(Region::whole(size, size, Samples::One), 0)
+}
+
+/// Where the centre of a pixel is.
+fn centre(column: i32, row: i32) -> [i32; 2] {
+    site(&frame(1), column, row)
+}
 
 fn vertex(random: &mut fastrand::Rng, spread: i32) -> Vertex {
     let mut at = || random.i32(-spread..SIZE * 256 + spread);
@@ -60,9 +73,9 @@ fn triangles_of_all_shapes_agree_with_the_reference() {
         }
         for k in 0..SIZE * SIZE {
             let (column, row) = (k % SIZE, k / SIZE);
-            let found = sample_triangle(triangle, column, row);
+            let found = sample_triangle(triangle, centre(column, row));
             assert_eq!(found.is_some(), reference(triangle, column, row), "round {round}: {triangle:?}");
-            assert!(found.is_none_or(|w| w == 0.5));
+            assert!(found.is_none_or(|hit| hit.w == 0.5));
             covered += usize::from(found.is_some());
         }
     }
@@ -73,13 +86,13 @@ fn triangles_of_all_shapes_agree_with_the_reference() {
 fn depth_is_interpolated() {
     let at = |x: i32, y: i32, w: f32| Vertex { x: x * 256, y: y * 256, w };
     let triangle = [at(0, 0, 0.1), at(20, 0, 0.3), at(0, 20, 0.2)];
-    let w = sample_triangle(triangle, 4, 8).expect("inside");
+    let w = sample_triangle(triangle, centre(4, 8)).expect("inside").w;
     assert!((w - (0.1 + 0.2 * 4.5 / 20.0 + 0.1 * 8.5 / 20.0)).abs() < 1.0e-6, "{w}");
 }
 
 /// A grid whose snapped vertices are jittered but never fold over, and its frame.
 fn jittered_grid(random: &mut fastrand::Rng, rate: u32, cell: i32) -> (Frame, Grid) {
-    let frame = Frame { width: SIZE as u32, height: SIZE as u32, rate, ..Frame::default() };
+    let frame = frame(rate);
     let mut grid = Grid::default();
     (grid.stride, grid.rows) = (rate as usize + 1, rate as usize + 1);
     let jitter = cell / 4;
@@ -113,7 +126,7 @@ fn every_sample_inside_a_grid_belongs_to_exactly_one_triangle() {
             let owners = (0..72)
                 .filter(|at| at % 9 != 8)
                 .flat_map(|at| triangles(&grid, at))
-                .filter(|triangle| sample_triangle(*triangle, column, row).is_some())
+                .filter(|triangle| sample_triangle(*triangle, centre(column, row)).is_some())
                 .count();
             assert!(owners <= 1, "round {round}: {owners} owners");
             let (x, y) = (column * 256 + 128, row * 256 + 128);
@@ -132,24 +145,25 @@ fn the_quick_way_agrees_with_the_general_one() {
     let mut states = [0; 3];
     for round in 0..20_000 {
         let cell = random.i32(4..500);
-        let (_, mut grid) = jittered_grid(&mut random, 8, cell);
+        let (frame, mut grid) = jittered_grid(&mut random, 8, cell);
         if round % 3 == 0 {
             for at in 0..GRID {
                 (grid.x[at], grid.y[at]) = (grid.x[at] & !127, grid.y[at] & !127);
             }
         }
         let row = random.usize(0..8);
-        let quads = Quads::new(&grid, row * grid.stride);
+        let quads = Quads::new(&frame, &grid, row * grid.stride);
         let finds = quads.find();
         for l in 0..8 {
             states[finds.state[l] as usize] += 1;
-            let [left, right, top, bottom] = quads.pixels(l);
+            let [left, right, top, bottom] = quads.samples(l);
             let pixels = (top..bottom).flat_map(|y| (left..right).map(move |x| (x, y)));
             let general = pixels.flat_map(|(x, y)| {
                 triangles(&grid, row * grid.stride + l)
-                    .map(|triangle| (x, y, sample_triangle(triangle, x, y)))
+                    .map(|triangle| (x, y, sample_triangle(triangle, centre(x, y))))
             });
-            let owned: Vec<_> = general.filter_map(|(x, y, w)| w.map(|w| (x, y, w.to_bits()))).collect();
+            let owned: Vec<_> =
+                general.filter_map(|(x, y, hit)| hit.map(|hit| (x, y, hit.w.to_bits()))).collect();
             match finds.state[l] {
                 NOTHING => assert_eq!(owned, [], "round {round}"),
                 FOUND => assert_eq!(owned, [(left, top, finds.w[l].to_bits())], "round {round}"),
@@ -171,14 +185,8 @@ fn ties_in_depth_go_to_the_smaller_identity_in_any_order() {
         let pixels = (SIZE * SIZE) as usize;
         let (mut samples, mut colours) = (vec![Sample::default(); pixels], vec![Colour::default(); pixels]);
         for patch in order {
-            let mut band = Band {
-                width: SIZE as u32,
-                height: SIZE as u32,
-                first_row: 0,
-                samples: &mut samples,
-                colours: &mut colours,
-            };
-            sample(&frame, draw(patch), &grid, &mut band);
+            let mut band = Band::whole(&frame, &mut samples, &mut colours);
+            sample(&frame, &Pattern::new(&frame), (draw(patch), 1.0), &grid, &mut band);
         }
         samples
     };
@@ -195,29 +203,26 @@ fn bands_together_are_the_whole_image() {
     let mut random = common::random(34);
     let (frame, grid) = jittered_grid(&mut random, 8, 500);
     let draw = Draw::new(Surface::root(3), micropoly_core::abi::Verdict::default());
-    let render = |heights: &[u32]| {
-        let mut image = Vec::new();
-        let mut first_row = 0;
+    let render = |heights: &[i32]| {
+        let pixels = (SIZE * SIZE) as usize;
+        let (mut samples, mut colours) = (vec![Sample::default(); pixels], vec![Colour::default(); pixels]);
+        let mut top = 0;
         for &height in heights {
-            let pixels = (SIZE as u32 * height) as usize;
-            let (mut samples, mut colours) =
-                (vec![Sample::default(); pixels], vec![Colour::default(); pixels]);
-            let (width, samples_) = (SIZE as u32, &mut samples);
-            let mut band = Band { width, height, first_row, samples: samples_, colours: &mut colours };
-            sample(&frame, draw, &grid, &mut band);
-            image.extend(samples);
-            first_row += height;
+            let mut band = Band::whole(&frame, &mut samples, &mut colours);
+            band.limits = [0, SIZE, top, top + height];
+            sample(&frame, &Pattern::new(&frame), (draw, 1.0), &grid, &mut band);
+            top += height;
         }
-        image
+        samples
     };
     assert_eq!(render(&[24]), render(&[5, 1, 7, 11]));
 }
 
 #[test]
-fn pixel_ranges_hold_exactly_the_centres() {
+fn ranges_hold_exactly_the_centres_of_pixels() {
     for low in -700..700 {
         for high in low..low + 600 {
-            let (first, end) = pixels_between(low, high);
+            let (first, end) = samples_between(&frame(1), low, high);
             let inside = (-5..8).filter(|pixel| (low..=high).contains(&(pixel * 256 + 128)));
             assert_eq!(inside.collect::<Vec<_>>(), (first..end).collect::<Vec<_>>(), "{low} {high}");
         }

@@ -11,7 +11,7 @@ use micropoly_core::kernel::bound::bound_any;
 use micropoly_core::kernel::dice::Grid;
 use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::displace::{bump, noise};
-use micropoly_core::kernel::triangle::pixels_between;
+use micropoly_core::kernel::triangle::samples_between;
 
 fn anywhere(random: &mut fastrand::Rng, extent: f32) -> [f32; 3] {
     [0; 3].map(|_| between(random, -extent, extent))
@@ -67,7 +67,7 @@ fn placed(random: &mut fastrand::Rng, frame: &mut Frame) -> Object {
         Camera::look_at(eye, axis(random) * 0.5, DVec3::new(0.1, 0.2, 1.0), 50.0, 0.05).expect("a view");
     let options = FrameOptions { width: 640, height: 360, ..FrameOptions::default() };
     *frame = camera.frame(&options, Vec3::ONE, &[]);
-    let material = Material { colour: Vec3::ONE, specular: 0.0, gloss: 0 };
+    let material = Material { colour: Vec3::ONE, specular: 0.0, gloss: 0, opacity: 1.0 };
     let to_world = DAffine3::from_mat3_translation(stretched, axis(random));
     let height = [0.01, 0.2, 1.0][random.usize(0..3)];
     let displacement =
@@ -120,8 +120,8 @@ fn nothing_visible_is_culled_and_boxes_contain_what_is_drawn() {
         // What must be clipped is not looked at.
         for at in (0..grid.stride * grid.rows).filter(|at| grid.w[*at] > 0.0) {
             // Pixels whose samples the vertex touches, if they are in the image.
-            let x = pixels_between(grid.x[at], grid.x[at]);
-            let y = pixels_between(grid.y[at], grid.y[at]);
+            let x = samples_between(&frame, grid.x[at], grid.x[at]);
+            let y = samples_between(&frame, grid.y[at], grid.y[at]);
             if x.1 <= 0 || x.0 >= frame.width as i32 || y.1 <= 0 || y.0 >= frame.height as i32 {
                 continue;
             }

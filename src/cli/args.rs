@@ -7,9 +7,13 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
+use micropoly::core::reconstruction::{MAX_RADIUS, MIN_RADIUS};
 use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
-use micropoly::{Backend, Batch, Borders, FrameOptions, Profile, RenderOptions, Scheduler, extension};
+use micropoly::{
+    Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Profile, Rasteriser,
+    RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
+};
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -41,16 +45,37 @@ pub(crate) enum Command {
 pub(crate) struct RenderArguments {
     /// Scene file (.toml, .mscene) or patch file (.bpt).
     pub(crate) scene: PathBuf,
-    /// Image file to write: .png, or .exr with linear colour, coverage, depth and patch. With --frames, # in its name
-    /// stands for the number of the frame (#### for at least four digits).
+    /// Image file to write: .png, or .exr with linear colour, coverage, depth, normal, uv, patch and number of samples. With
+    /// --frames, # in its name stands for the number of the frame (#### for at least four digits).
     #[arg(short, long, value_name = "FILE", value_parser = image_path)]
     pub(crate) output: PathBuf,
     /// Bits a value: 8 or 16 in PNG files, 16 or 32 in EXR files.
     #[arg(long, value_name = "8|16|32", value_parser = bits)]
     pub(crate) bits: Option<u32>,
-    /// Render these frames of the camera's path, A to B, both included.
+    /// Render these frames of the animation (the camera's path, objects that move), A to B, both included.
     #[arg(long, value_name = "A..B", value_parser = frames, conflicts_with = "stats")]
     pub(crate) frames: Option<(u32, u32)>,
+    /// Render only these pixels: those from column X0 and row Y0 up to, but without, column X1 and row Y1. They are the
+    /// same as in the whole image.
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = crop)]
+    crop: Option<Window>,
+    /// How samples become pixels; mitchell sharpens.
+    #[arg(long, value_enum, default_value_t = FilterChoice::Box)]
+    filter: FilterChoice,
+    /// How far the filter reaches from the middle of a pixel, in pixels, from 0.5 to 4. [default: box 0.5, triangle 1,
+    /// gaussian 1.5, mitchell 2]
+    #[arg(long, value_name = "PIXELS", value_parser = radius)]
+    filter_radius: Option<f64>,
+    /// How long the shutter is open, in frames: what moves is blurred. [default: the scene's, else 0]
+    #[arg(long, value_name = "FRAMES", value_parser = shutter)]
+    shutter: Option<f64>,
+    /// The lens's f-number: what is not in focus is blurred, the more the smaller it is. [default: the scene's, else no
+    /// lens]
+    #[arg(long, value_name = "N", value_parser = above_zero)]
+    fstop: Option<f64>,
+    /// Distance that is in focus, in scene units. [default: the scene's]
+    #[arg(long, value_name = "DISTANCE", value_parser = above_zero)]
+    focus: Option<f64>,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,
     /// Write statistics as JSON to this file; - writes to standard output.
@@ -69,8 +94,26 @@ pub(crate) struct RenderArguments {
 
 impl RenderArguments {
     pub(crate) fn options(&self) -> RenderOptions {
-        let device = self.device.clone();
-        RenderOptions { backend: self.backend.into(), device, ..self.frame.options() }
+        let (device, crop) = (self.device.clone(), self.crop);
+        let filter = Filter::of(self.filter.into());
+        let filter = Filter { radius: self.filter_radius.unwrap_or(filter.radius), ..filter };
+        RenderOptions { backend: self.backend.into(), device, crop, filter, ..self.frame.options() }
+    }
+
+    /// Shutter and lens: the scene's own, but for what was given.
+    pub(crate) fn blur(&self, scene: &Scene) -> Result<Blur, Error> {
+        let own = scene.blur;
+        let fstop = self.fstop.or(own.lens.map(|lens| lens.fstop));
+        let focus = self.focus.or(own.lens.map(|lens| lens.focus));
+        let lens = match (fstop, focus) {
+            (Some(fstop), Some(focus)) => Some(Lens { fstop, focus }),
+            (None, None) => None,
+            _ => {
+                let problem = "a lens needs an f-number and a distance in focus, and the scene has neither";
+                return Err(Error::scene(problem, "give both --fstop and --focus"));
+            }
+        };
+        Ok(Blur { shutter: self.shutter.unwrap_or(own.shutter), lens, ..own })
     }
 }
 
@@ -335,6 +378,19 @@ pub(crate) struct FrameArguments {
     /// Skip grids of micropolygons that show only their back (closed objects look the same).
     #[arg(long)]
     cull_backfaces: bool,
+    /// Samples a pixel: 1, 4, 16 or 64.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = samples)]
+    samples: Samples,
+    /// One colour a micropolygon, or colours interpolated between its vertices.
+    #[arg(long, value_enum, default_value_t = ShadingChoice::Flat)]
+    shading: ShadingChoice,
+    /// How grids of micropolygons get to their samples. The image does not depend on it.
+    #[arg(long, value_enum, default_value_t = RasteriserChoice::SortMiddle)]
+    rasteriser: RasteriserChoice,
+    /// Pixels a side of a tile of the sort-middle rasteriser: 4, 8, 16 or 32. The image does not depend on it. [default:
+    /// what suits the device]
+    #[arg(long, value_name = "N", value_parser = tile)]
+    tile: Option<u32>,
 }
 
 impl FrameArguments {
@@ -369,7 +425,10 @@ impl FrameArguments {
             cull_backfaces: self.cull_backfaces,
             whole: false,
             profile: self.profile.into(),
-            ..FrameOptions::default()
+            samples: self.samples,
+            shading: self.shading.into(),
+            rasteriser: self.rasteriser.into(),
+            tile: self.tile.unwrap_or(0),
         };
         RenderOptions {
             frame,
@@ -459,6 +518,63 @@ impl From<BordersChoice> for Borders {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ShadingChoice {
+    /// One colour a micropolygon.
+    Flat,
+    /// Colours are interpolated between vertices.
+    Smooth,
+}
+
+impl From<ShadingChoice> for Shading {
+    fn from(choice: ShadingChoice) -> Self {
+        match choice {
+            ShadingChoice::Flat => Self::Flat,
+            ShadingChoice::Smooth => Self::Smooth,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RasteriserChoice {
+    /// Sorted into tiles, whose samples are found together.
+    SortMiddle,
+    /// One by one, merged without locks.
+    SortLast,
+}
+
+impl From<RasteriserChoice> for Rasteriser {
+    fn from(choice: RasteriserChoice) -> Self {
+        match choice {
+            RasteriserChoice::SortMiddle => Self::SortMiddle,
+            RasteriserChoice::SortLast => Self::SortLast,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FilterChoice {
+    /// All samples count alike.
+    Box,
+    /// The nearer, the more.
+    Triangle,
+    /// A bell.
+    Gaussian,
+    /// A cubic that sharpens.
+    Mitchell,
+}
+
+impl From<FilterChoice> for Kernel {
+    fn from(choice: FilterChoice) -> Self {
+        match choice {
+            FilterChoice::Box => Self::Box,
+            FilterChoice::Triangle => Self::Triangle,
+            FilterChoice::Gaussian => Self::Gaussian,
+            FilterChoice::Mitchell => Self::Mitchell,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ProgressStyle {
     /// A bar if standard error is a terminal, else plain lines.
     Auto,
@@ -506,6 +622,39 @@ fn image_path(text: &str) -> Result<PathBuf, String> {
         "png" | "exr" => Ok(path),
         _ => Err("only PNG and EXR images can be written: choose a name that ends in .png or .exr".into()),
     }
+}
+
+fn crop(text: &str) -> Result<Window, String> {
+    let numbers: Vec<u32> = text.split(',').filter_map(|number| number.trim().parse().ok()).collect();
+    match (numbers.as_slice(), text.split(',').count()) {
+        (&[left, top, right, bottom], 4) if left < right && top < bottom => {
+            Ok(Window { left, right, top, bottom })
+        }
+        _ => Err("write four numbers of pixels: left,top,right,bottom, for example 100,50,200,150".into()),
+    }
+}
+
+fn samples(text: &str) -> Result<Samples, String> {
+    let count = text.parse().ok();
+    count.and_then(Samples::of_count).ok_or_else(|| "choose 1, 4, 16 or 64".to_owned())
+}
+
+fn tile(text: &str) -> Result<u32, String> {
+    text.parse()
+        .ok()
+        .filter(|side| [4, 8, 16, 32].contains(side))
+        .ok_or_else(|| "choose 4, 8, 16 or 32".to_owned())
+}
+
+fn radius(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|radius| (MIN_RADIUS..=MAX_RADIUS).contains(radius))
+        .ok_or_else(|| format!("choose a number of pixels from {MIN_RADIUS} to {MAX_RADIUS}"))
+}
+
+fn shutter(text: &str) -> Result<f64, String> {
+    from_zero(text).ok().filter(|s| *s <= 1.0e6).ok_or_else(|| "give a number of frames from 0".to_owned())
 }
 
 fn bits(text: &str) -> Result<u32, String> {

@@ -16,9 +16,10 @@ use super::summary;
 pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let start = Instant::now();
     let kind = Kind::of(&arguments.output, arguments.bits)?;
-    let options = RenderOptions { film: kind.needs_film(), ..arguments.options() };
     check_folder(&arguments.output)?;
     let scene = Scene::load(&arguments.scene)?;
+    let blur = Some(arguments.blur(&scene)?);
+    let options = RenderOptions { film: kind.needs_film(), blur, ..arguments.options() };
     let load = start.elapsed().as_secs_f64();
     if let Some((first, last)) = arguments.frames {
         return render_path(arguments, &scene, &options, kind, first..=last);

@@ -7,7 +7,7 @@ use crate::abi::{Frame, MAX_PATTERN_BITS};
 use crate::kernel::dice::LANES;
 use crate::kernel::project::Vertex;
 use crate::kernel::triangle::{Hit, samples_between};
-use crate::num::{clamp, float, max, min, mul, recip, add, sub};
+use crate::num::{add, clamp, float, max, min, mul, recip, sub};
 
 /// Rows and columns of the largest pattern.
 const SIDE: usize = 1 << MAX_PATTERN_BITS;
@@ -213,12 +213,15 @@ impl Quad {
         let mask = (1 << pattern.bits) - 1;
         let (first, line) = ((column & mask) as usize, (row & mask) as usize);
         let (x, y) = (&pattern.x[line][first], &pattern.y[line][first]);
-        let start = [
-            (column << pattern.pitch_bits) - self.origin[0],
-            (row << pattern.pitch_bits) - self.origin[1],
-        ];
-        let mut out =
-            Row { owned: 0, w: [0.0; LANES], second: [false; LANES], for_b: [0.0; LANES], for_c: [0.0; LANES] };
+        let start =
+            [(column << pattern.pitch_bits) - self.origin[0], (row << pattern.pitch_bits) - self.origin[1]];
+        let mut out = Row {
+            owned: 0,
+            w: [0.0; LANES],
+            second: [false; LANES],
+            for_b: [0.0; LANES],
+            for_c: [0.0; LANES],
+        };
         let mut owned = [false; LANES];
         for l in 0..LANES {
             let (x, y) = (start[0] + x[l], start[1] + y[l]);

@@ -174,7 +174,14 @@ fn dice_smooth(frame: &Frame, patches: &[Patch], draw: Draw, grid: &mut Grid) {
 
 /// The unit normal, in eye space, of what is drawn at a parameter of a patch, displaced or not.
 #[must_use]
-pub fn normal_at(frame: &Frame, patches: &[Patch], object: &Object, patch_id: u32, u: u32, v: u32) -> [f32; 3] {
+pub fn normal_at(
+    frame: &Frame,
+    patches: &[Patch],
+    object: &Object,
+    patch_id: u32,
+    u: u32,
+    v: u32,
+) -> [f32; 3] {
     if object.reach > 0.0 {
         let Owner { patch_id, u, v } = patches[patch_id as usize].owner(patch_id, u, v);
         let (point, normal) = Source::new(patches, patch_id).vertex(frame, u, v);

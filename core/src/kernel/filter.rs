@@ -28,17 +28,16 @@ pub fn filter(
     let (mut rgba, mut total, mut count) = ([0.0; 4], 0.0, 0);
     for tap in &taps[..frame.taps as usize] {
         let (x, y) = (first_column + tap.column, first_row + tap.row);
-        if x < 0 || x >= columns || y < 0 || y >= rows {
-            continue;
-        }
-        let place = (y * columns + x) as usize;
-        if samples[place].depth != 0 {
-            for k in 0..4 {
-                rgba[k] = add(rgba[k], mul(tap.weight, colours[place].rgba[k]));
+        if (x as u32) < columns as u32 && (y as u32) < rows as u32 {
+            let place = (y * columns + x) as usize;
+            if samples[place].depth != 0 {
+                for k in 0..4 {
+                    rgba[k] = add(rgba[k], mul(tap.weight, colours[place].rgba[k]));
+                }
             }
+            total = add(total, tap.weight);
+            count += 1;
         }
-        total = add(total, tap.weight);
-        count += 1;
     }
     if count != frame.taps {
         let scale = recip(total);

@@ -6,10 +6,10 @@
 //! edge, ones that must be clipped) are left to the general way through `triangle.rs`. Both give the same
 //! answer.
 
+use crate::abi::Frame;
 use crate::kernel::dice::{Grid, LANES, load};
 use crate::kernel::triangle::{Hit, samples_between, site, weighted};
 use crate::num::{float, min, mul, recip};
-use crate::abi::Frame;
 
 /// The micropolygon owns no sample.
 pub const NOTHING: u32 = 0;

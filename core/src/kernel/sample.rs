@@ -45,6 +45,24 @@ pub struct Band<'a> {
     pub colours: &'a mut [Colour],
 }
 
+impl<'a> Band<'a> {
+    /// All samples of a frame with one layer.
+    #[must_use]
+    pub const fn whole(frame: &Frame, samples: &'a mut [Sample], colours: &'a mut [Colour]) -> Self {
+        let (left, top) = (frame.sample_left as i32, frame.sample_top as i32);
+        Self {
+            limits: [left, frame.sample_right as i32, top, frame.sample_bottom as i32],
+            origin: [left, top],
+            first: frame.place_first as usize,
+            column: frame.place_column as usize,
+            row: frame.place_row as usize,
+            behind: &[],
+            samples,
+            colours,
+        }
+    }
+}
+
 impl Target for Band<'_> {
     #[inline(always)]
     fn limits(&self) -> [i32; 4] {
@@ -158,7 +176,11 @@ impl<'a> Sampler<'a> {
     /// Its colour where one of its triangles, a b c or the second, a c d, was hit.
     #[inline(always)]
     fn colour(&self, corners: Corners, second: bool, hit: Hit) -> Colour {
-        if self.frame.flags & FLAG_SMOOTH == 0 { self.mean(corners) } else { self.smooth(corners, second, hit) }
+        if self.frame.flags & FLAG_SMOOTH == 0 {
+            self.mean(corners)
+        } else {
+            self.smooth(corners, second, hit)
+        }
     }
 
     /// Mean colour of the four vertices of a micropolygon.

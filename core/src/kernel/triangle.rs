@@ -97,7 +97,8 @@ pub fn weighted([a, b, c]: [f32; 3], for_b: f32, for_c: f32) -> f32 {
 #[inline(always)]
 #[must_use]
 pub fn sample_triangle(triangle: [Vertex; 3], site: Site) -> Option<Hit> {
-    let [a, b, c] = [Corner::new(triangle[0], site), Corner::new(triangle[1], site), Corner::new(triangle[2], site)];
+    let [a, b, c] =
+        [Corner::new(triangle[0], site), Corner::new(triangle[1], site), Corner::new(triangle[2], site)];
     let edges = [edge(b, c), edge(c, a), edge(a, b)];
     if owns([a, b, c], edges) { Some(hit([a, b, c], edges)) } else { None }
 }

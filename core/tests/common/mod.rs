@@ -61,7 +61,7 @@ pub fn random_view(random: &mut fastrand::Rng, near: f64) -> (Frame, Object) {
 pub fn view(camera: &Camera, width: u32, height: u32) -> (Frame, Object) {
     let options = FrameOptions { width, height, ..FrameOptions::default() };
     let light = Light::Directional { to_light: DVec3::new(1.0, 2.0, 3.0), colour: Vec3::ONE };
-    let material = Material { colour: Vec3::splat(0.5), specular: 0.2, gloss: 4 };
+    let material = Material { colour: Vec3::splat(0.5), specular: 0.2, gloss: 4, opacity: 1.0 };
     (camera.frame(&options, Vec3::splat(0.1), &[light]), camera.object(DAffine3::IDENTITY, &material))
 }
 

@@ -11,6 +11,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use micropoly_core::abi::{Colour, Control, Draw, Frame, Limits, Object, Patch, Sample, Slot, Surface, Verdict};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material};
 use micropoly_core::kernel::dice::{Grid, dice};
+use micropoly_core::kernel::dense::Pattern;
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::split::{Outcome, split};
 use micropoly_core::kernel::{bound::bound, scan::scan, shade::shade, take};
@@ -52,7 +53,7 @@ fn scene() -> Option<Scene> {
     let (width, height) = (SIDE as u32, SIDE as u32);
     let options =
         FrameOptions { width, height, bound: 4.0, rate: 4, levels: LEVELS, ..FrameOptions::default() };
-    let material = Material { colour: Vec3::splat(0.6), specular: 0.3, gloss: 5 };
+    let material = Material { colour: Vec3::splat(0.6), specular: 0.3, gloss: 5, opacity: 1.0 };
     Some(Scene {
         frame: camera.frame(&options, Vec3::splat(0.1), &[light]),
         object: camera.object(DAffine3::IDENTITY, &material),
@@ -72,8 +73,7 @@ fn bent_square() -> Patch {
 /// Renders the scene and counts the samples that something covers; 0 if a queue ran full.
 fn covered_samples(scene: &Scene) -> usize {
     let (mut samples, mut colours) = ([Sample::default(); SIDE * SIDE], [Colour::default(); SIDE * SIDE]);
-    let (width, height) = (scene.frame.width, scene.frame.height);
-    let mut band = Band { width, height, first_row: 0, samples: &mut samples, colours: &mut colours };
+    let mut band = Band::whole(&scene.frame, &mut samples, &mut colours);
     let mut queues = Queues {
         control: Control::default(),
         stack: [Surface::default(); STACK],
@@ -126,6 +126,6 @@ fn draw(scene: &Scene, draws: &[Draw], band: &mut Band<'_>) {
     for draw in draws {
         dice(&Net::in_eye_space(patch, object), frame, *draw, &mut grid);
         shade(frame, object, &mut grid);
-        sample(frame, *draw, &grid, band);
+        sample(frame, &Pattern::new(frame), (*draw, object.opacity), &grid, band);
     }
 }
