@@ -42,6 +42,10 @@ impl<'a> Passes<'a> {
         let window = options.window()?;
         let samples = options.frame.samples;
         let blur = options.blur.unwrap_or(scene.blur);
+        if !blur.is_sound() {
+            let remedy = "the shutter must be 0 or more, the lens's f-number, focus and sensor above 0";
+            return Err(Error::scene("a shutter or a lens that cannot be", remedy));
+        }
         let tuples: Vec<Tuple> =
             if shot.is_blurred(scene, &blur) { tuples(samples).collect() } else { Vec::new() };
         let sharp = [(0.0, [0.0; 2])];

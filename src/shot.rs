@@ -27,6 +27,16 @@ impl Default for Blur {
     }
 }
 
+impl Blur {
+    /// Can kernels work with what it makes of a scene?
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let above_zero = |value: f64| value > 0.0 && value.is_finite();
+        let lens = self.lens.is_none_or(|lens| above_zero(lens.fstop) && above_zero(lens.focus));
+        self.shutter >= 0.0 && self.shutter.is_finite() && above_zero(self.sensor) && lens
+    }
+}
+
 /// A thin lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {

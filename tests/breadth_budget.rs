@@ -40,8 +40,8 @@ impl<D: Device> Device for Watched<D> {
         self.device.bytes_allocated()
     }
 
-    fn own_bytes(&self, _: Extent) -> u64 {
-        OWN
+    fn own_bytes(&self, extent: Extent) -> u64 {
+        OWN + self.device.own_bytes(extent)
     }
 
     fn write<T: Shared>(&mut self, buffer: &D::Buffer, data: &[T]) -> std::result::Result<(), D::Error> {
@@ -82,7 +82,8 @@ impl Job for Render<'_> {
     type Output = (Result<Rendering>, u64);
 
     fn run<D: Device>(self, device: D, name: String) -> Self::Output {
-        let frame = FrameOptions { width: 320, height: 180, bound: 4.0, ..FrameOptions::default() };
+        // So small that it is never cut into parts.
+        let frame = FrameOptions { width: 40, height: 25, bound: 0.5, size: 0.1, ..FrameOptions::default() };
         let options =
             RenderOptions { frame, batch: self.1, scheduler: Scheduler::Breadth, ..RenderOptions::default() };
         let most = Rc::new(Cell::new(0));

@@ -141,7 +141,10 @@ fn nothing_visible_is_culled_and_boxes_contain_what_is_drawn() {
         let (top, bottom) = ((verdict.rows & 0xffff) as i32, (verdict.rows >> 16) as i32);
         let grid = case.grid(draw_at(surface.divided(verdict), [8, 8]));
         for at in (0..grid.stride * grid.rows).filter(|&at| grid.w[at] > 0.0) {
-            let (x, y) = (samples_between(&case.frame, grid.x[at], grid.x[at]), samples_between(&case.frame, grid.y[at], grid.y[at]));
+            let (x, y) = (
+                samples_between(&case.frame, grid.x[at], grid.x[at]),
+                samples_between(&case.frame, grid.y[at], grid.y[at]),
+            );
             let outside =
                 x.1 <= 0 || y.1 <= 0 || x.0 >= case.frame.width as i32 || y.0 >= case.frame.height as i32;
             assert!(outside || verdict.code != CULL, "round {round}: a vertex at {x:?}, {y:?} was culled");

@@ -142,9 +142,8 @@ fn wrong(found: Sample, colour: f32, smooth: bool, all: &[Triangle], p: (i128, i
         }
     }
     let colours = contenders.iter().filter(|triangle| triangle.id == id);
-    let mut colours = colours.map(|triangle| {
-        if smooth { at(triangle.corners, triangle.colours, p) } else { triangle.mean }
-    });
+    let mut colours = colours
+        .map(|triangle| if smooth { at(triangle.corners, triangle.colours, p) } else { triangle.mean });
     let is_right = colours.any(|wanted| (wanted - f64::from(colour)).abs() < 2.0e-4);
     (!is_right).then(|| format!("colour {colour}"))
 }
@@ -193,7 +192,11 @@ fn no_sample_is_wrong() {
             let (column, row) = (index as i32 % (WIDTH as i32 * k), index as i32 / (WIDTH as i32 * k));
             let p = place(k, (column / k, row / k), (column % k, row % k));
             let problem = wrong(found, colour.rgba[0], smooth, &all, p);
-            assert!(problem.is_none(), "round {round}, sample {column}, {row}: {}", problem.unwrap_or_default());
+            assert!(
+                problem.is_none(),
+                "round {round}, sample {column}, {row}: {}",
+                problem.unwrap_or_default()
+            );
             checked += 1;
             covered += u64::from(found.depth > 0);
         }
