@@ -116,6 +116,8 @@ pub struct Rendering {
     pub film: Option<Film>,
     /// What was counted on the way, in all parts of the image and all passes together.
     pub counts: Counts,
+    /// Parts that the image was rendered in, so that it fits the memory; a surface on the border of two is counted in both.
+    pub parts: usize,
     /// Buffer sizes, and so the proven bounds.
     pub sizes: Sizes,
     /// Bytes that the device held.
@@ -185,6 +187,7 @@ pub(crate) fn render_from<D: Device>(
         image: canvas.image(),
         film,
         counts,
+        parts: regions.len(),
         sizes: *plan.sizes(),
         bytes_allocated,
         device: device_name,
