@@ -106,18 +106,6 @@ impl CpuDevice {
         Ok(Self { pool, lists, keys, allocated, steps: None })
     }
 
-    /// From now on takes the time of each step of drawing.
-    pub fn time_steps(&mut self) {
-        self.steps = Some(Steps::default());
-    }
-
-    /// Milliseconds of all threads together that the steps of drawing took since they were last asked for: name and time;
-    /// nothing unless [`CpuDevice::time_steps`] was called.
-    #[must_use]
-    pub fn steps(&mut self) -> Vec<(&'static str, f64)> {
-        self.steps.as_mut().map(Steps::take).unwrap_or_default()
-    }
-
     /// Number of threads.
     #[must_use]
     pub fn threads(&self) -> usize {
@@ -141,6 +129,16 @@ impl Device for CpuDevice {
 
     fn bytes_allocated(&self) -> u64 {
         self.allocated.load(Ordering::Relaxed)
+    }
+
+    fn time_steps(&mut self) {
+        self.steps = Some(Steps::default());
+    }
+
+    fn tell_steps(&mut self, tell: &mut dyn FnMut(&'static str, f64)) {
+        for (name, milliseconds) in self.steps.as_mut().map(Steps::take).into_iter().flatten() {
+            tell(name, milliseconds);
+        }
     }
 
     fn write<T: Shared>(&mut self, buffer: &CpuBuffer, data: &[T]) -> Result<(), CpuError> {

@@ -41,7 +41,7 @@ pub(crate) struct Steps {
 
 impl Steps {
     /// Milliseconds of each, which start anew.
-    pub(crate) fn take(&mut self) -> Vec<(&'static str, f64)> {
+    pub(crate) fn take(&mut self) -> [(&'static str, f64); 5] {
         let steps = [
             ("count", &mut self.count),
             ("sort", &mut self.sort),
@@ -49,7 +49,7 @@ impl Steps {
             ("shade", &mut self.shade),
             ("sample", &mut self.sample),
         ];
-        steps.map(|(name, step)| (name, std::mem::take(step.get_mut()) as f64 * 1e-6)).into()
+        steps.map(|(name, step)| (name, std::mem::take(step.get_mut()) as f64 * 1e-6))
     }
 }
 

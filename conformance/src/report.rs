@@ -40,6 +40,29 @@ pub struct CaseReport {
     pub error: Option<String>,
 }
 
+/// How one picture fared.
+#[derive(Clone, Debug, Serialize)]
+pub struct PictureReport {
+    /// Name of the scene.
+    pub scene: String,
+    /// How it was rendered.
+    pub look: String,
+    /// Hash of the reference's pixels.
+    pub expected: String,
+    /// Hash of the device's; `None` if it failed.
+    pub found: Option<String>,
+    /// What the device said when it failed.
+    pub error: Option<String>,
+}
+
+impl PictureReport {
+    /// Did the device give the reference's bits?
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.found.as_ref() == Some(&self.expected)
+    }
+}
+
 /// How one device fared.
 #[derive(Clone, Debug, Serialize)]
 pub struct DeviceReport {
@@ -53,6 +76,8 @@ pub struct DeviceReport {
     pub stages: Vec<StageReport>,
     /// Whole images and counts.
     pub cases: Vec<CaseReport>,
+    /// Pictures in all looks.
+    pub pictures: Vec<PictureReport>,
 }
 
 impl StageReport {
@@ -75,7 +100,9 @@ impl DeviceReport {
     /// Did the device give the reference's bits everywhere?
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.stages.iter().all(StageReport::agrees) && self.cases.iter().all(CaseReport::agrees)
+        self.stages.iter().all(StageReport::agrees)
+            && self.cases.iter().all(CaseReport::agrees)
+            && self.pictures.iter().all(PictureReport::agrees)
     }
 }
 

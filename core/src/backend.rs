@@ -38,6 +38,13 @@ pub trait Device {
         0
     }
 
+    /// From now on takes the time of each step of drawing, if the device can.
+    fn time_steps(&mut self) {}
+
+    /// Tells name and milliseconds, of all threads together, of each step of drawing since this was last asked; nothing
+    /// unless [`Device::time_steps`] was called on a device that can.
+    fn tell_steps(&mut self, _tell: &mut dyn FnMut(&'static str, f64)) {}
+
     /// Copies `data` to the start of a buffer.
     ///
     /// # Errors

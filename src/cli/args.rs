@@ -256,6 +256,10 @@ pub(crate) struct BenchArguments {
     /// Measure dicing instead, on the CPU: lengths and number of micropolygons, and what watertight borders cost.
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv"])]
     pub(crate) dicing: bool,
+    /// Measure rasterising instead, step by step (Eisenacher & Loop 2010, Table 1): tile sizes × bound × samples, and
+    /// sort-last to compare with. Without a scene: the built-in teapot.
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing"])]
+    pub(crate) raster: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]

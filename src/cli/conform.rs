@@ -5,8 +5,11 @@ use std::path::Path;
 use micropoly::core::backend::Device;
 use micropoly::core::stage::Stage;
 use micropoly::devices::{DeviceEntry, Job, devices_of, with_device};
-use micropoly::{Backend, Error, FrameOptions, Image, Result, Scene, Scheduler, bpt, scene_file};
-use micropoly_conformance::report::{CaseReport, DeviceReport, check_case, check_stage, pixels};
+use micropoly::looks::Look;
+use micropoly::{Backend, Blur, Error, FrameOptions, Image, Lens, Result, Scene, Scheduler, bpt, scene_file};
+use micropoly_conformance::report::{
+    CaseReport, DeviceReport, PictureReport, check_case, check_stage, pixels,
+};
 use micropoly_conformance::{Case, Outcome, Schedule, corpus};
 use serde_json::Value;
 
@@ -15,6 +18,8 @@ use super::render::write_json;
 
 /// Image sizes of every scene.
 const SIZES: [(u32, u32); 3] = [(160, 90), (640, 360), (1280, 720)];
+/// Image size of pictures in all looks.
+const LOOK_SIZE: (u32, u32) = (96, 54);
 /// Surfaces a batch.
 const BATCHES: [u32; 3] = [300, 4096, 50_000];
 /// Fewer patches than this make a small scene.
@@ -22,11 +27,12 @@ const FEW: usize = 5000;
 
 pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
     let entries = compared(arguments.backend)?;
-    let cases = cases(&arguments.scenes)?;
+    let scenes = scenes(&arguments.scenes)?;
+    let (cases, looked_at) = (cases(&scenes)?, [scenes, blurred_scenes()?].concat());
     let mut reports = Vec::new();
     for entry in &entries {
         say!("\n{} {}  {}", entry.backend.name(), entry.index, entry.name);
-        let job = Conform { entry, cases: &cases, pictures: &arguments.pictures };
+        let job = Conform { entry, cases: &cases, scenes: &looked_at, pictures: &arguments.pictures };
         reports.push(with_device(entry, 3, job)??);
     }
     if let Some(path) = &arguments.json {
@@ -58,12 +64,31 @@ fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
     Ok(all)
 }
 
-/// The built-in scenes and those that the user names, at every size.
-fn cases(files: &[std::path::PathBuf]) -> Result<Vec<Case>> {
-    let built_in = |name: &str, text: &str| scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec());
-    let teapot = bpt::parse_bytes("teapot.bpt".as_ref(), include_bytes!("../../scenes/teapot.bpt").to_vec())?;
+fn built_in(name: &str, text: &str) -> Result<Scene> {
+    scene_file::parse_bytes(name.as_ref(), text.as_bytes().to_vec())
+}
+
+pub(super) fn teapot(name: &str) -> Result<Scene> {
+    let teapot = include_bytes!("../../scenes/teapot.bpt").to_vec();
+    Scene::around(name.to_owned(), bpt::parse_bytes("teapot.bpt".as_ref(), teapot)?)
+}
+
+/// A teapot with balls in it that can be seen through, and one that spins out of focus.
+fn blurred_scenes() -> Result<Vec<Scene>> {
+    let (mut glass, mut spinning) = (teapot("glass")?, teapot("spinning")?);
+    let mut balls = built_in("spheres", include_str!("../../scenes/spheres.toml"))?.objects.remove(0);
+    balls.material.opacity = 0.6;
+    glass.objects[0].material.opacity = 0.3;
+    glass.objects.push(balls);
+    spinning.objects[0].motion.rotate.z = 40.0;
+    spinning.blur = Blur { shutter: 0.5, lens: Some(Lens { fstop: 2.8, focus: 9.0 }), sensor: 0.5 };
+    Ok(vec![glass, spinning])
+}
+
+/// The built-in scenes and those that the user names.
+fn scenes(files: &[std::path::PathBuf]) -> Result<Vec<Scene>> {
     let mut scenes = vec![
-        Scene::around("teapot".to_owned(), teapot)?,
+        teapot("teapot")?,
         built_in("eyesplit", include_str!("../../scenes/eyesplit.toml"))?,
         built_in("spheres", include_str!("../../scenes/spheres.toml"))?,
         built_in("gregory", include_str!("../../scenes/gregory.toml"))?,
@@ -72,6 +97,11 @@ fn cases(files: &[std::path::PathBuf]) -> Result<Vec<Case>> {
     for file in files {
         scenes.push(Scene::load(file)?);
     }
+    Ok(scenes)
+}
+
+/// All scenes at every size.
+fn cases(scenes: &[Scene]) -> Result<Vec<Case>> {
     let mut cases = Vec::new();
     for (scene, (width, height)) in scenes.iter().flat_map(|scene| SIZES.map(|size| (scene, size))) {
         let options = FrameOptions { width, height, ..FrameOptions::default() };
@@ -100,6 +130,7 @@ fn schedules(case: &Case) -> Vec<Schedule> {
 struct Conform<'a> {
     entry: &'a DeviceEntry,
     cases: &'a [Case],
+    scenes: &'a [Scene],
     pictures: &'a Path,
 }
 
@@ -129,6 +160,7 @@ impl<D: Device> Job for AgainstReference<'_, D> {
             details: self.conform.entry.details.iter().cloned().collect(),
             stages: Vec::new(),
             cases: Vec::new(),
+            pictures: Vec::new(),
         };
         for stage in Stage::ALL {
             let checked = check_stage(&mut reference, &mut self.device, stage, corpus::ROUNDS);
@@ -150,11 +182,32 @@ impl<D: Device> Job for AgainstReference<'_, D> {
                 report.cases.push(checked);
             }
         }
+        for scene in self.conform.scenes {
+            report.pictures.extend(self.looks(&mut reference, scene)?);
+        }
         Ok(report)
     }
 }
 
 impl<D: Device> AgainstReference<'_, D> {
+    /// Compares pictures of a scene in all looks.
+    fn looks<R: Device>(&mut self, reference: &mut R, scene: &Scene) -> Result<Vec<PictureReport>> {
+        let (name, mut reports) = (scene.name.clone(), Vec::new());
+        for look in Look::all() {
+            let expected = look.usual().hash_on(reference, scene, LOOK_SIZE)?;
+            let (found, error) = match look.hash_on(&mut self.device, scene, LOOK_SIZE) {
+                Ok(hash) => (Some(hash), None),
+                Err(error) => (None, Some(error.to_string())),
+            };
+            let (scene, look) = (name.clone(), look.to_string());
+            let report = PictureReport { scene, look, expected, found, error };
+            print_row(&report.scene, &report.look, report.agrees());
+            print_error(report.error.as_deref());
+            reports.push(report);
+        }
+        Ok(reports)
+    }
+
     /// Writes expected, actual and difference of a case side by side.
     fn picture<R: Device>(&mut self, reference: &mut R, case: &Case, schedule: Schedule) -> Result<()> {
         let (width, height) = (case.frame.width, case.frame.height);

@@ -12,6 +12,7 @@ macro_rules! say {
 mod args;
 mod bench;
 mod bench_dicing;
+mod bench_raster;
 mod conform;
 mod devices;
 mod diff;
@@ -48,6 +49,7 @@ pub(crate) fn main() -> ExitCode {
             outcome => outcome.map(|_| ()),
         },
         Command::Conform(arguments) => conform::run(&arguments),
+        Command::Bench(arguments) if arguments.raster => bench_raster::run(&arguments),
         Command::Bench(arguments) if arguments.dicing => bench_dicing::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
     };
