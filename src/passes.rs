@@ -18,7 +18,7 @@ use crate::render::{Progress, RenderOptions, Subject, chosen_sizes, note_on, roo
 use crate::scene::Scene;
 
 /// Samples of a part of the image, about: enough for any device to be busy, few enough to stay in a CPU's last cache.
-const PART: u64 = 1 << 20;
+const PART: u64 = 1 << 19;
 /// With one sample a pixel and no blur, memory is the only reason for parts.
 const SHARP_PART: u64 = 1 << 22;
 /// Parts do not get smaller than that to fit the memory.

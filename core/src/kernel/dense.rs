@@ -1,7 +1,8 @@
 //! One micropolygon and the samples around it, many samples at once: for frames whose pattern has more than one sample.
 //!
-//! All edge functions of a micropolygon that is small enough fit 32 bits, and are affine in the place of the sample: three
-//! numbers each, found once. Ownership, which of two triangles is nearer, and 1 / distance are as in `triangle.rs`.
+//! Edge functions are affine in the place of the sample: three numbers each, found once. Of a micropolygon that is small
+//! enough all of them, and all on the way to them, are whole numbers below 2²⁴, which floats hold exactly: so lanes of floats
+//! do, which are faster than integers. Ownership, which of two triangles is nearer, and 1 / distance are as in `triangle.rs`.
 
 use crate::abi::{Frame, MAX_PATTERN_BITS};
 use crate::kernel::dice::LANES;
@@ -12,31 +13,30 @@ use crate::num::{add, clamp, float, max, min, mul, recip, sub};
 /// Rows and columns of the largest pattern.
 const SIDE: usize = 1 << MAX_PATTERN_BITS;
 /// A micropolygon no longer than this, in snapped units, is small enough.
-const SMALL: i32 = 16_000;
+const SMALL: i32 = 1900;
 
-/// The pattern of a frame, laid out for lanes: snapped units from the start of the first lane's field to each sample of
-/// [`LANES`] successive ones of a row, for every column of the pattern to start with, and every row.
+/// The samples of one block of lanes, for every column and every row of the pattern that it can start with: snapped units
+/// from the start of the first lane's field.
 #[derive(Clone, Debug)]
-pub struct Pattern {
-    x: [[[i32; LANES]; SIDE]; SIDE],
-    y: [[[i32; LANES]; SIDE]; SIDE],
-    bits: u32,
-    pitch_bits: u32,
+struct Layout {
+    x: [[[f32; LANES]; SIDE]; SIDE],
+    y: [[[f32; LANES]; SIDE]; SIDE],
 }
 
-impl Pattern {
-    /// The pattern of a frame.
-    #[must_use]
-    pub fn new(frame: &Frame) -> Self {
-        let zero = [[[0; LANES]; SIDE]; SIDE];
-        let mut out = Self { x: zero, y: zero, bits: frame.pattern_bits, pitch_bits: frame.pitch_bits };
-        let side = 1_usize << out.bits;
+impl Layout {
+    /// Blocks of so many columns, and as many rows as that leaves.
+    fn new(frame: &Frame, columns: usize) -> Self {
+        let zero = [[[0.0; LANES]; SIDE]; SIDE];
+        let mut out = Self { x: zero, y: zero };
+        let (bits, side) = (frame.pattern_bits, 1_usize << frame.pattern_bits);
         for row in 0..side {
             for first in 0..side {
                 for l in 0..LANES {
-                    let index = row << out.bits | (first + l) & (side - 1);
-                    out.x[row][first][l] = ((l as i32) << out.pitch_bits) + frame.sample_x[index];
-                    out.y[row][first][l] = frame.sample_y[index];
+                    let (across, down) = (l % columns, l / columns);
+                    let index = ((row + down) & (side - 1)) << bits | (first + across) & (side - 1);
+                    let start = |fields: usize| (fields as i32) << frame.pitch_bits;
+                    out.x[row][first][l] = float(start(across) + frame.sample_x[index]);
+                    out.y[row][first][l] = float(start(down) + frame.sample_y[index]);
                 }
             }
         }
@@ -44,51 +44,68 @@ impl Pattern {
     }
 }
 
-/// `base + x · right + y · down`: an edge function, positive inside, less one where samples on the edge belong to the
-/// triangle on its other side.
+/// The pattern of a frame, laid out for lanes.
+#[derive(Clone, Debug)]
+pub struct Pattern {
+    /// For blocks of [`WIDE`] and of [`NARROW`] columns.
+    layouts: [Layout; 2],
+    bits: u32,
+    pitch_bits: u32,
+}
+
+/// Columns of a block of one row.
+const WIDE: i32 = LANES as i32;
+/// Columns of a block of two rows, for micropolygons that are no wider.
+const NARROW: i32 = WIDE / 2;
+
+impl Pattern {
+    /// The pattern of a frame.
+    #[must_use]
+    pub fn new(frame: &Frame) -> Self {
+        let layouts = [WIDE, NARROW].map(|columns| Layout::new(frame, columns as usize));
+        Self { layouts, bits: frame.pattern_bits, pitch_bits: frame.pitch_bits }
+    }
+}
+
+/// An edge function, `base + x · right + y · down`, positive inside of its triangle, which owns the samples where it is at
+/// least `least`: top and left edges own what lies on them. All are whole numbers.
 #[derive(Clone, Copy, Debug, Default)]
 struct Edge {
-    base: i32,
-    right: i32,
-    down: i32,
+    base: f32,
+    right: f32,
+    down: f32,
+    least: f32,
 }
 
 impl Edge {
-    /// Of the edge between two points, as seen from the origin.
     #[inline(always)]
-    fn between([px, py]: [i32; 2], [qx, qy]: [i32; 2]) -> Self {
-        Self { base: px * qy - py * qx, right: py - qy, down: qx - px }
+    fn new([base, right, down]: [i32; 3]) -> Self {
+        let (dx, dy) = (down, -right);
+        let is_own = (dy < 0) | ((dy == 0) & (dx > 0));
+        let least = if is_own { 0.0 } else { 1.0 };
+        Self { base: float(base), right: float(right), down: float(down), least }
     }
 
     #[inline(always)]
-    fn at(&self, x: i32, y: i32) -> i32 {
-        self.base.wrapping_add(x.wrapping_mul(self.right)).wrapping_add(y.wrapping_mul(self.down))
+    fn at(&self, x: f32, y: f32) -> f32 {
+        add(self.base, add(mul(x, self.right), mul(y, self.down)))
     }
+}
 
-    /// Seen from its other side.
-    #[inline(always)]
-    fn turned(self) -> Self {
-        Self { base: -self.base, right: -self.right, down: -self.down }
-    }
-
-    /// The least value at which the edge's triangle, which lies to its right on screen, owns a sample: top and left edges
-    /// own what lies on them.
-    #[inline(always)]
-    fn least(&self) -> i32 {
-        let (dx, dy) = (self.down, -self.right);
-        i32::from(!(dy < 0 || (dy == 0 && dx > 0)))
-    }
+/// Base, right and down of the edge from p to q, as seen from the origin.
+#[inline(always)]
+fn edge([px, py]: [i32; 2], [qx, qy]: [i32; 2]) -> [i32; 3] {
+    [px * qy - py * qx, py - qy, qx - px]
 }
 
 /// A triangle as edge functions opposite its corners.
 #[derive(Clone, Copy, Debug, Default)]
 struct Triangle {
     edges: [Edge; 3],
-    least: [i32; 3],
     w: [f32; 3],
-    /// Bits by which areas are shifted, and one over the shifted area of all.
-    spare: u32,
+    /// One over the area.
     share: f32,
+    /// The least and the largest `w`.
     low: f32,
     high: f32,
 }
@@ -96,25 +113,25 @@ struct Triangle {
 impl Triangle {
     /// `edges` are those opposite the corners.
     #[inline(always)]
-    fn new(edges: [Edge; 3], w: [f32; 3]) -> Self {
+    fn new(edges: [[i32; 3]; 3], w: [f32; 3]) -> Self {
         // The sum of all three is the same at every sample: twice the area.
-        let area = edges[0].base.wrapping_add(edges[1].base).wrapping_add(edges[2].base);
-        let edges = if area < 0 { edges.map(Edge::turned) } else { edges };
-        let size = area.unsigned_abs();
-        let spare = 8_u32.saturating_sub(size.leading_zeros());
-        let never = i32::MAX;
-        let least = if area == 0 { [never; 3] } else { edges.map(|edge| edge.least()) };
+        let area = edges[0][0] + edges[1][0] + edges[2][0];
+        let sign = if area < 0 { -1 } else { 1 };
+        let mut edges = edges.map(|edge| Edge::new(edge.map(|number| number * sign)));
+        if area == 0 {
+            edges[0].least = f32::INFINITY; // it owns nothing
+        }
         let (low, high) = (min(min(w[0], w[1]), w[2]), max(max(w[0], w[1]), w[2]));
-        Self { edges, least, w, spare, share: recip(float((size >> spare) as i32)), low, high }
+        Self { edges, w, share: recip(float(area * sign)), low, high }
     }
 
     /// Whether it owns a sample, and what it shows there.
     #[inline(always)]
-    fn sample(&self, x: i32, y: i32) -> (bool, Hit) {
-        let edges = [self.edges[0].at(x, y), self.edges[1].at(x, y), self.edges[2].at(x, y)];
-        let owns = (edges[0] >= self.least[0]) & (edges[1] >= self.least[1]) & (edges[2] >= self.least[2]);
-        let for_b = mul(float(edges[1] >> self.spare), self.share);
-        let for_c = mul(float(edges[2] >> self.spare), self.share);
+    fn sample(&self, x: f32, y: f32) -> (bool, Hit) {
+        let [p, q, r] = &self.edges;
+        let edges = [p.at(x, y), q.at(x, y), r.at(x, y)];
+        let owns = (edges[0] >= p.least) & (edges[1] >= q.least) & (edges[2] >= r.least);
+        let (for_b, for_c) = (mul(edges[1], self.share), mul(edges[2], self.share));
         let [a, b, c] = self.w;
         let w = add(a, add(mul(for_b, sub(b, a)), mul(for_c, sub(c, a))));
         (owns, Hit { w: clamp(w, self.low, self.high), for_b, for_c })
@@ -138,9 +155,9 @@ pub struct Quad {
     pub bottom: i32,
 }
 
-/// What a micropolygon shows at [`LANES`] successive samples of a row.
+/// What a micropolygon shows at the samples of a block.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct Block {
     /// A bit a sample: does it own it?
     pub owned: u32,
     /// 1 / distance.
@@ -153,7 +170,37 @@ pub struct Row {
     pub for_c: [f32; LANES],
 }
 
-impl Row {
+/// Blocks that together hold some samples: the columns of one, and its rows.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// Columns of a block.
+    pub columns: i32,
+    /// Rows of a block.
+    pub rows: i32,
+}
+
+impl Shape {
+    /// For samples in so many columns.
+    #[inline(always)]
+    #[must_use]
+    pub const fn of(columns: i32) -> Self {
+        if columns <= NARROW {
+            Self { columns: NARROW, rows: WIDE / NARROW }
+        } else {
+            Self { columns: WIDE, rows: 1 }
+        }
+    }
+
+    /// Bits of the samples of a block that are among the first so many columns and rows.
+    #[inline(always)]
+    #[must_use]
+    pub fn mask(self, columns: i32, rows: i32) -> u32 {
+        let row = (1_u32 << columns.min(self.columns)) - 1;
+        if self.rows == 1 || rows == 1 { row } else { row | row << NARROW }
+    }
+}
+
+impl Block {
     /// What it shows at one of them.
     #[inline(always)]
     #[must_use]
@@ -189,14 +236,11 @@ impl Quad {
     pub fn new(pattern: &Pattern, corners: [Vertex; 4], [left, right, top, bottom]: [i32; 4]) -> Self {
         let origin = [left << pattern.pitch_bits, top << pattern.pitch_bits];
         let [a, b, c, d] = corners.map(|corner| [corner.x - origin[0], corner.y - origin[1]]);
-        let diagonal = Edge::between(c, a);
+        let diagonal = edge(c, a);
         let [wa, wb, wc, wd] = corners.map(|corner| corner.w);
         Self {
-            first: Triangle::new([Edge::between(b, c), diagonal, Edge::between(a, b)], [wa, wb, wc]),
-            second: Triangle::new(
-                [Edge::between(c, d), Edge::between(d, a), diagonal.turned()],
-                [wa, wc, wd],
-            ),
+            first: Triangle::new([edge(b, c), diagonal, edge(a, b)], [wa, wb, wc]),
+            second: Triangle::new([edge(c, d), edge(d, a), diagonal.map(|number| -number)], [wa, wc, wd]),
             origin,
             left,
             right,
@@ -205,17 +249,19 @@ impl Quad {
         }
     }
 
-    /// What it shows at the samples of a row from a column on, where it owns them; as of two triangles that overlap, the
-    /// nearer, and of two that are equally near the first.
+    /// What it shows at the samples of a block from a column and a row on, where it owns them; as of two triangles that
+    /// overlap, the nearer, and of two that are equally near the first.
     #[inline(always)]
     #[must_use]
-    pub fn row(&self, pattern: &Pattern, column: i32, row: i32) -> Row {
+    pub fn block(&self, pattern: &Pattern, shape: Shape, column: i32, row: i32) -> Block {
         let mask = (1 << pattern.bits) - 1;
         let (first, line) = ((column & mask) as usize, (row & mask) as usize);
-        let (x, y) = (&pattern.x[line][first], &pattern.y[line][first]);
+        let layout = &pattern.layouts[usize::from(shape.rows > 1)];
+        let (x, y) = (&layout.x[line][first], &layout.y[line][first]);
         let start =
-            [(column << pattern.pitch_bits) - self.origin[0], (row << pattern.pitch_bits) - self.origin[1]];
-        let mut out = Row {
+            [(column << pattern.pitch_bits) - self.origin[0], (row << pattern.pitch_bits) - self.origin[1]]
+                .map(float);
+        let mut out = Block {
             owned: 0,
             w: [0.0; LANES],
             second: [false; LANES],
@@ -224,7 +270,7 @@ impl Quad {
         };
         let mut owned = [false; LANES];
         for l in 0..LANES {
-            let (x, y) = (start[0] + x[l], start[1] + y[l]);
+            let (x, y) = (add(start[0], x[l]), add(start[1], y[l]));
             let (in_first, p) = self.first.sample(x, y);
             let (in_second, q) = self.second.sample(x, y);
             let second = in_second & (!in_first | (q.w > p.w));

@@ -6,7 +6,7 @@
 use crate::abi::{Colour, Draw, FLAG_CULL_BACKFACES, FLAG_SMOOTH, Frame, MAX_RATE, Sample};
 use crate::kernel::blend::is_behind;
 use crate::kernel::clip::clip;
-use crate::kernel::dense::{Pattern, Quad};
+use crate::kernel::dense::{Pattern, Quad, Shape};
 use crate::kernel::dice::{Grid, LANES};
 use crate::kernel::project::{Vertex, project_clipped};
 use crate::kernel::quads::{FOUND, NOTHING, Quads};
@@ -245,19 +245,22 @@ impl<'a> Sampler<'a> {
         let quad = Quad::new(pattern, quad, samples);
         let mean = self.mean(corners);
         let is_smooth = self.frame.flags & FLAG_SMOOTH != 0;
-        for y in top..bottom {
-            let mut first = left;
-            while first < right {
-                let row = quad.row(pattern, first, y);
-                let mut owned = row.owned & ((1 << (right - first).min(LANES as i32)) - 1);
-                while owned != 0 {
-                    let l = owned.trailing_zeros() as usize;
-                    owned &= owned - 1;
-                    let colour =
-                        if is_smooth { self.smooth(corners, row.second[l], row.hit(l)) } else { mean };
-                    target.put(first + l as i32, y, self.sample(place, row.w[l]), colour);
-                }
-                first += LANES as i32;
+        let shape = Shape::of(right - left);
+        let (mut x, mut y) = (left, top);
+        while y < bottom {
+            let block = quad.block(pattern, shape, x, y);
+            let mut owned = block.owned & shape.mask(right - x, bottom - y);
+            while owned != 0 {
+                let l = owned.trailing_zeros() as usize;
+                owned &= owned - 1;
+                let colour =
+                    if is_smooth { self.smooth(corners, block.second[l], block.hit(l)) } else { mean };
+                let (across, down) = (l as i32 & (shape.columns - 1), l as i32 / shape.columns);
+                target.put(x + across, y + down, self.sample(place, block.w[l]), colour);
+            }
+            x += shape.columns;
+            if x >= right {
+                (x, y) = (left, y + shape.rows);
             }
         }
     }
