@@ -3,6 +3,7 @@
 //! Fields are only ever added under the same `version`.
 
 use micropoly_core::memory::Sizes;
+use micropoly_core::pattern::Window;
 use micropoly_core::render::Load;
 use serde::Serialize;
 
@@ -37,6 +38,8 @@ pub struct Stats {
     pub surfaces: Surfaces,
     /// Micropolygons of all drawn surfaces.
     pub micropolygons: u64,
+    /// Parts that the image was rendered in.
+    pub parts: usize,
     /// Bytes that the device held.
     pub bytes_allocated: u64,
     /// Hash of the pixels before encoding.
@@ -115,6 +118,20 @@ pub struct Options {
     pub cull_backfaces: bool,
     /// Rules by which surfaces were culled and split.
     pub profile: &'static str,
+    /// Samples of a pixel.
+    pub samples: u32,
+    /// How samples became pixels.
+    pub filter: &'static str,
+    /// How far the filter reached, pixels.
+    pub filter_radius: f64,
+    /// From where colours came within a micropolygon.
+    pub shading: &'static str,
+    /// How grids got to their samples.
+    pub rasteriser: &'static str,
+    /// Pixels a side of a tile; 0 = as the device liked it.
+    pub tile: u32,
+    /// The pixels that were rendered: left, top, right, bottom, if not all.
+    pub crop: Option<[u32; 4]>,
 }
 
 impl Stats {
@@ -142,6 +159,7 @@ impl Stats {
                 load: counts.load.map(LoadStats::from),
             },
             micropolygons: counts.micropolygons,
+            parts: rendering.parts,
             bytes_allocated: *bytes_allocated,
             image_hash: image.hash(),
             seconds,
@@ -168,5 +186,12 @@ fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
         threads: options.threads,
         cull_backfaces: frame.cull_backfaces,
         profile: frame.profile.name(),
+        samples: frame.samples.count(),
+        filter: options.filter.kernel.name(),
+        filter_radius: options.filter.radius,
+        shading: frame.shading.name(),
+        rasteriser: frame.rasteriser.name(),
+        tile: frame.tile,
+        crop: options.crop.map(|Window { left, right, top, bottom }| [left, top, right, bottom]),
     }
 }

@@ -73,7 +73,10 @@ impl<D: Device> Device for Timed<'_, D> {
     }
 
     fn clear(&mut self, buffer: &D::Buffer) -> Result<(), D::Error> {
-        self.device.clear(buffer)
+        let start = Instant::now();
+        let outcome = self.device.clear(buffer);
+        self.seconds.draw += start.elapsed().as_secs_f64();
+        outcome
     }
 
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&D::Buffer]) -> Result<(), D::Error> {
