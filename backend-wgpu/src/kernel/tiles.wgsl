@@ -11,8 +11,12 @@
 @group(0) @binding(7) var<storage, read_write> rounds: Rounds;
 
 const GROUP: u32 = 64u;
-// An invocation each lists a draw.
-const_assert LISTED <= GROUP;
+// An invocation each lists a draw, and has a word of the set.
+const_assert LISTED <= GROUP && CHUNK == 32u * GROUP;
+
+// The tile's list as a set, a bit a draw of the chunk, since it is in no order; and how many are in the words before.
+var<workgroup> members: array<atomic<u32>, GROUP>;
+var<workgroup> members_before: array<u32, GROUP>;
 
 var<workgroup> hits_shared: u32;
 // Draws of the list that earlier rounds have sampled, and the round's budget.
@@ -31,19 +35,21 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let round = workgroupUniformLoad(&round_shared);
     let list = list_of(block);
-    var next = list.x + round.x;
-    if next < list.y {
+    let length = list.y - list.x;
+    var next = round.x;
+    if next < length {
         recall(lane);
+        gather(list, lane);
     }
-    for (var done = 0u; next < list.y && done < round.y; done += TOGETHER) {
-        let count = select(list.y - next, TOGETHER, next + TOGETHER < list.y);
+    for (var done = 0u; next < length && done < round.y; done += TOGETHER) {
+        let count = select(length - next, TOGETHER, next + TOGETHER < length);
         put_on_list(block, next, count, lane);
         sample_listed(count, lane);
         next += count;
     }
     if lane == 0u {
-        rounds.progress[place] = next - list.x;
-        if next < list.y {
+        rounds.progress[place] = next;
+        if next < length {
             rounds.unfinished[KIND - 1u] = 1u;
         }
     }
@@ -85,15 +91,38 @@ fn recall(lane: u32) {
     }
 }
 
-// The draws that are sampled next, and the order of their patches; those beside the block have nothing to sample.
+// The tile's list as a set.
+fn gather(list: vec2<u32>, lane: u32) {
+    atomicStore(&members[lane], 0u);
+    workgroupBarrier();
+    for (var at = list.x + lane; at < list.y; at += GROUP) {
+        atomicOr(&members[bins[at] / 32u], 1u << (bins[at] % 32u));
+    }
+    workgroupBarrier();
+    var before = 0u;
+    for (var word = 0u; word < lane; word++) {
+        before += countOneBits(atomicLoad(&members[word]));
+    }
+    members_before[lane] = before;
+}
+
+// The draws that are sampled next, in the order of the draw buffer, so that the first of several that are the same is
+// shown; and the order of their patches. Those beside the block have nothing to sample.
 fn put_on_list(block: vec2<u32>, first: u32, count: u32, lane: u32) {
     workgroupBarrier();
+    var slot = members_before[lane] - first; // less than 0 is more than any slot
+    for (var bits = atomicLoad(&members[lane]); bits != 0u; bits &= bits - 1u) {
+        if slot < count {
+            listed[slot] = 32u * lane + countTrailingZeros(bits);
+        }
+        slot += 1u;
+    }
+    workgroupBarrier();
     if lane < count {
-        let index = bins[first + lane];
+        let index = listed[lane];
         let draw = draw_at(index);
         let base = grid_base(index);
         let touches = is_among(block.x, grids[base + 1u]) && is_among(block.y, grids[base + 2u]);
-        listed[lane] = index;
         listed_patch[lane] = draw.patch_id;
         quads[lane] = select(0u, quads_of(draw), touches);
     }
