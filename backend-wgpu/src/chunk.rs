@@ -14,7 +14,7 @@ pub(crate) const DRAWS: u64 = 2048;
 /// Log2 of the samples a side of the largest block; as in `blocks.wgsl`.
 const MOST_BLOCK_BITS: u32 = 4;
 /// Words before the first grid; as `GRIDS` in `grids.wgsl`.
-const GRIDS: u64 = 2;
+const GRIDS: u64 = 1;
 /// Words of a grid before its vertices; as `GRID_HEAD` there.
 const GRID_HEAD: u64 = 4;
 /// Words before the first bin, and entries of the list at least; as `BINS` and `ENTRIES` in `bins.wgsl`.

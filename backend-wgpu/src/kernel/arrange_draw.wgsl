@@ -35,7 +35,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     if lane == 0u {
         let count = fitting(start, most);
         grids[HEAD_START] = start;
-        grids[HEAD_COUNT] = count;
         rounds.next = start + count;
         rounds.left = left - count;
         rounds.round = 0u;

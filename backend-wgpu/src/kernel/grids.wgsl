@@ -8,10 +8,9 @@
 // Draws a chunk, at most.
 const CHUNK: u32 = 2048u;
 
-// The head: first draw of the chunk and number of its draws.
+// The head: the first draw of the chunk.
 const HEAD_START: u32 = 0u;
-const HEAD_COUNT: u32 = 1u;
-const GRIDS: u32 = 2u;
+const GRIDS: u32 = 1u;
 // Kinds of grids. Nothing is to be seen of it; it is small and whole, so that it needs neither clipping nor wide
 // integers; any other.
 const KIND_HIDDEN: u32 = 0u;
