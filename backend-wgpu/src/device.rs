@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError, mpsc};
 use micropoly_core::abi::{Draw, Layout, Patch, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::known;
-use micropoly_core::stage::{Items, Stage};
+use micropoly_core::stage::{Extent, Items, Stage};
 
 use crate::buffer::WgpuBuffer;
 use crate::chunk::{self, Chunk};
@@ -36,7 +36,7 @@ pub struct WgpuDevice {
     queue: wgpu::Queue,
     /// As [`Which::ALL`].
     kernels: Vec<Slot>,
-    /// What the fused stage needs for itself.
+    /// What the fused stages need for themselves.
     chunk: Chunk,
     /// Numbers of groups of indirect dispatches.
     groups: wgpu::Buffer,
@@ -120,7 +120,7 @@ impl WgpuDevice {
         Ok(Self {
             name,
             kernels: kernels?,
-            chunk: Chunk::new(&device, software, &allocated),
+            chunk: Chunk::new(&device, &queue, software, &allocated),
             groups: memory(&device, "groups", 24, usage),
             staging: memory(&device, "staging", STAGING_BYTES + 4, read),
             device,
@@ -255,20 +255,33 @@ impl WgpuDevice {
         Ok(())
     }
 
-    /// Runs the fused stage, chunk by chunk.
-    fn draw(&mut self, buffers: &DrawBuffers<'_>) -> Result<(), WgpuError> {
-        self.chunk.fit(&self.device, &self.queue, buffers.image, buffers.rate)?;
-        let rounds = self.chunk.rounds.clone();
-        self.encoder().clear_buffer(&rounds, chunk::BEGUN, Some(4));
-        for _ in 0..buffers.room.div_ceil(chunk::DRAWS) {
-            self.draw_chunk(buffers)?;
-            while self.chunk.in_rounds && self.is_unfinished()? {
-                self.sample_tiles(buffers)?;
+    /// Runs a fused stage, chunk by chunk. How many draws a chunk has, only the device knows: as many as their tiles'
+    /// lists have room for.
+    fn draw(&mut self, b: &DrawBuffers<'_>) -> Result<(), WgpuError> {
+        self.chunk.fit(&self.device, &self.queue, b.stage, &b.extent)?;
+        let (rounds, in_rounds) = (self.chunk.rounds.clone(), self.chunk.in_rounds);
+        self.encoder().clear_buffer(&rounds, chunk::NEXT, Some(4));
+        let mut left = b.room;
+        while left > 0 {
+            let chunks = if in_rounds { 1 } else { left.div_ceil(chunk::DRAWS) };
+            for _ in 0..chunks {
+                self.draw_chunk(b)?;
             }
+            if !in_rounds && !chunk::is_large(&b.extent) {
+                return Ok(());
+            }
+            let [mut after, near, general] = self.left()?;
+            let mut unfinished = [near, general];
+            while unfinished != [0; 2] {
+                self.sample_tiles(b)?;
+                [after, unfinished[0], unfinished[1]] = self.left()?;
+            }
+            left = after.into();
         }
         Ok(())
     }
 
+    /// Dices the next chunk, shades it and samples it.
     fn draw_chunk(&mut self, b: &DrawBuffers<'_>) -> Result<(), WgpuError> {
         let (grids, rounds, groups) =
             (self.chunk.grids.clone(), self.chunk.rounds.clone(), self.groups.clone());
@@ -276,25 +289,51 @@ impl WgpuDevice {
         self.record(Which::ArrangeDraw, &arranged, Groups::Known(1, 1))?;
         let diced = [b.frame, b.objects, b.patches, b.draws, &grids, b.more_patches];
         self.record(if b.is_general { Which::DrawAny } else { Which::Draw }, &diced, Groups::Arranged)?;
+        if b.stage == Stage::SortLast {
+            return self.sample_draws(b);
+        }
+        self.sort_into_tiles(b)?;
         self.sample_tiles(b)
+    }
+
+    /// Lists the chunk's grids, tile by tile.
+    fn sort_into_tiles(&mut self, b: &DrawBuffers<'_>) -> Result<(), WgpuError> {
+        let (grids, bins) = (self.chunk.grids.clone(), self.chunk.bins.clone());
+        self.encoder().clear_buffer(&bins, 0, Some(chunk::bins_head_bytes(&b.extent)));
+        self.record(Which::CountBins, &[b.frame, &grids, &bins], Groups::Arranged)?;
+        self.record(Which::ScanBins, &[b.frame, &bins], Groups::Known(1, 1))?;
+        self.record(Which::WriteBins, &[b.frame, &grids, &bins], Groups::Arranged)
     }
 
     /// One round of the tiles.
     fn sample_tiles(&mut self, b: &DrawBuffers<'_>) -> Result<(), WgpuError> {
-        let (grids, rounds, groups) =
-            (self.chunk.grids.clone(), self.chunk.rounds.clone(), self.groups.clone());
-        self.record(Which::ArrangeTiles, &[b.frame, &grids, &rounds, &groups], Groups::Known(1, 1))?;
-        let tiles = [b.frame, b.draws, &grids, b.samples, b.colours, &rounds];
+        let (grids, bins) = (self.chunk.grids.clone(), self.chunk.bins.clone());
+        let (rounds, groups) = (self.chunk.rounds.clone(), self.groups.clone());
+        self.record(Which::ArrangeTiles, &[b.frame, &bins, &rounds, &groups], Groups::Known(1, 1))?;
+        let tiles = [b.frame, b.draws, &grids, &bins, b.behind, b.samples, b.colours, &rounds];
         self.record(Which::Tiles(Kind::Near), &tiles, Groups::Arranged)?;
         self.record(Which::Tiles(Kind::General), &tiles, Groups::ArrangedSecond)
     }
 
-    /// Has any tile draws left?
-    fn is_unfinished(&mut self) -> Result<bool, WgpuError> {
+    /// All turns of sort-last.
+    fn sample_draws(&mut self, b: &DrawBuffers<'_>) -> Result<(), WgpuError> {
+        let (grids, keys) = (self.chunk.grids.clone(), self.chunk.keys.clone());
+        let (rounds, turns) = (self.chunk.rounds.clone(), self.chunk.turns.clone());
+        let draws = [b.frame, b.draws, &grids, b.behind, b.samples, b.colours, &keys, &rounds];
+        for turn in 0..chunk::TURNS {
+            self.encoder().copy_buffer_to_buffer(&turns, 4 * turn, &rounds, chunk::TURN, 4);
+            self.record(Which::SortLast, &draws, Groups::ArrangedSecond)?;
+        }
+        let count = b.extent.columns * b.extent.rows;
+        self.record(Which::Merge, &[b.frame, b.samples, &keys], spread(count.div_ceil(ITEMS_A_GROUP)))
+    }
+
+    /// How many draws are in no chunk yet, and whether a tile has draws left, of either kind.
+    fn left(&mut self) -> Result<[u32; 3], WgpuError> {
         let rounds = self.chunk.rounds.clone();
-        let mut unfinished = [0; 8];
-        self.read_piece(&rounds, chunk::UNFINISHED, &mut unfinished)?;
-        Ok(unfinished != [0; 8])
+        let mut left = [0; 3];
+        self.read_piece(&rounds, chunk::LEFT, bytemuck::cast_slice_mut(&mut left))?;
+        Ok(left)
     }
 
     /// Runs MESH on the first `count` draws: a group each, and the kernel knows how many there are by the length of
@@ -329,8 +368,13 @@ impl WgpuDevice {
         match (stage, items) {
             (Stage::Take | Stage::Balance | Stage::MeshPlaces | Stage::Flush, _)
             | (Stage::Scan, Items::Taken) => Ok(Groups::Known(1, 1)),
-            (Stage::KnownAnswers, Items::Count(count)) => Ok(spread(count.div_ceil(ITEMS_A_GROUP))),
+            (Stage::KnownAnswers | Stage::Filter, Items::Count(count)) => {
+                Ok(spread(count.div_ceil(ITEMS_A_GROUP)))
+            }
             // The kernels know how many there are by the length of their buffer.
+            (Stage::Blend, Items::Count(count)) if buffers[0].entries() == count.into() => {
+                Ok(spread(count.div_ceil(ITEMS_A_GROUP)))
+            }
             (Stage::Local | Stage::Deal, Items::Groups(count))
                 if place_of(stage, "groups")
                     .is_some_and(|place| buffers[place].entries() == count.into()) =>
@@ -349,22 +393,21 @@ impl WgpuDevice {
     }
 }
 
-/// The buffers of the fused stage, in the order of its bindings, and its sizes.
+/// The buffers of a fused stage, in the order of its bindings, and its sizes.
 struct DrawBuffers<'a> {
+    stage: Stage,
     frame: &'a wgpu::Buffer,
     objects: &'a wgpu::Buffer,
     patches: &'a wgpu::Buffer,
     more_patches: &'a wgpu::Buffer,
     control: &'a wgpu::Buffer,
     draws: &'a wgpu::Buffer,
+    behind: &'a wgpu::Buffer,
     samples: &'a wgpu::Buffer,
     colours: &'a wgpu::Buffer,
     /// Entries of the draw buffer.
     room: u64,
-    /// Width and height in pixels.
-    image: (u32, u32),
-    /// Dice rate.
-    rate: u32,
+    extent: Extent,
     /// Does it need the kernels for any patch and profile?
     is_general: bool,
 }
@@ -484,8 +527,8 @@ impl Device for WgpuDevice {
         pieces * self.piece_bytes(layout)
     }
 
-    fn own_bytes(&self, width: u32, height: u32, rate: u32) -> u64 {
-        chunk::bytes((width, height), rate)
+    fn own_bytes(&self, extent: Extent) -> u64 {
+        chunk::bytes(&extent)
     }
 
     fn write<T: Shared>(&mut self, buffer: &WgpuBuffer, data: &[T]) -> Result<(), WgpuError> {
@@ -521,6 +564,13 @@ impl Device for WgpuDevice {
         self.checked()
     }
 
+    fn clear(&mut self, buffer: &WgpuBuffer) -> Result<(), WgpuError> {
+        for piece in [Some(buffer.memory()), buffer.more()].into_iter().flatten() {
+            self.encoder().clear_buffer(piece, 0, None);
+        }
+        self.checked()
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&WgpuBuffer]) -> Result<(), WgpuError> {
         let bindings = stage.bindings();
         if bindings.len() != buffers.len() {
@@ -532,24 +582,24 @@ impl Device for WgpuDevice {
         let memories: Vec<_> = buffers.iter().map(|buffer| buffer.memory()).collect();
         let more = buffers.iter().find_map(|buffer| buffer.more());
         let is_general = buffers.iter().any(|buffer| buffer.is_general());
-        if let (Stage::Draw, Items::Image { width, height, rate }) = (stage, items) {
-            let &[frame, objects, patches, control, draws, samples, colours] = &memories[..] else {
+        if let (Stage::Draw | Stage::SortLast, Items::Image(extent)) = (stage, items) {
+            let &[frame, objects, patches, control, draws, behind, samples, colours] = &memories[..] else {
                 return Err(WgpuError::Bindings { stage: stage.name() });
             };
             let room = buffers[4].entries();
-            let image = (width, height);
             self.draw(&DrawBuffers {
+                stage,
                 frame,
                 objects,
                 patches,
                 more_patches: more.unwrap_or(patches),
                 control,
                 draws,
+                behind,
                 samples,
                 colours,
                 room,
-                image,
-                rate,
+                extent,
                 is_general,
             })?;
             return self.checked();

@@ -44,15 +44,30 @@ files! {
     OWNER: "owner",
     DISPLACE: "displace",
     SHADE: "shade",
+    SITE: "site",
+    ORDER: "order",
     TRIANGLE: "triangle",
     CLIP: "clip",
     SAMPLE: "sample",
     NEAR: "near",
     GENERAL: "general",
     GRIDS: "grids",
+    BLOCKS: "blocks",
+    BINS: "bins",
+    COUNT_BINS: "count_bins",
+    SCAN_BINS: "scan_bins",
+    WRITE_BINS: "write_bins",
+    FILL_BINS: "fill_bins",
     ROUNDS: "rounds",
+    LOOPS: "loops",
     DRAW: "draw",
+    CANDIDATES: "candidates",
     TILES: "tiles",
+    KEYS: "keys",
+    SORT_LAST: "sort_last",
+    MERGE: "merge",
+    BLEND: "blend",
+    FILTER: "filter",
     ARRANGE_DRAW: "arrange_draw",
     ARRANGE_TILES: "arrange_tiles",
     COUNTS: "counts",
@@ -72,10 +87,10 @@ files! {
     ARRANGE: "arrange",
 }
 
-/// The kernels: one a stage, those into which the fused stage is cut, and those that count groups.
+/// The kernels: one a stage, those into which the fused stages are cut, and those that count groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// A stage other than the fused one; of `bound` and `local`, what plain scenes need: Bézier patches that are not
+    /// A stage other than the two fused ones; of `bound` and `local`, what plain scenes need: Bézier patches that are not
     /// displaced, in our own profile.
     Stage(Stage),
     /// All of `bound`.
@@ -90,10 +105,20 @@ pub enum Which {
     Draw,
     /// Dices and shades a chunk.
     DrawAny,
+    /// Counts the grids of each tile.
+    CountBins,
+    /// Where the list of each tile starts.
+    ScanBins,
+    /// Writes the lists.
+    WriteBins,
     /// The next round of the tiles.
     ArrangeTiles,
     /// Samples a chunk tile by tile.
     Tiles(Kind),
+    /// Samples a chunk draw by draw, for a turn of sort-last.
+    SortLast,
+    /// The samples after the last turn.
+    Merge,
 }
 
 /// A kind of grids.
@@ -107,7 +132,7 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 27] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
@@ -117,6 +142,8 @@ impl Which {
         Self::LocalAny,
         Self::Stage(Stage::Balance),
         Self::Stage(Stage::Deal),
+        Self::Stage(Stage::Blend),
+        Self::Stage(Stage::Filter),
         Self::Stage(Stage::MeshPlaces),
         Self::Stage(Stage::Mesh),
         Self::Stage(Stage::Flush),
@@ -125,9 +152,14 @@ impl Which {
         Self::ArrangeDraw,
         Self::Draw,
         Self::DrawAny,
+        Self::CountBins,
+        Self::ScanBins,
+        Self::WriteBins,
         Self::ArrangeTiles,
         Self::Tiles(Kind::Near),
         Self::Tiles(Kind::General),
+        Self::SortLast,
+        Self::Merge,
     ];
 
     /// Its place in [`Which::ALL`].
@@ -135,14 +167,17 @@ impl Which {
         Self::ALL.iter().position(|which| *which == self).expect("every kernel is in the list")
     }
 
-    /// Is it compiled only when it is first needed? Those of LOCAL, of meshes, and for any patch and profile are.
+    /// Is it compiled only when it is first needed? Those of LOCAL, of layers, of sort-last, of
+    /// meshes, and for any patch and profile are.
     const fn can_wait(self) -> bool {
         matches!(
             self,
-            Self::Stage(Stage::Local | Stage::MeshPlaces | Stage::Mesh)
+            Self::Stage(Stage::Local | Stage::Blend | Stage::MeshPlaces | Stage::Mesh)
                 | Self::BoundAny
                 | Self::LocalAny
                 | Self::DrawAny
+                | Self::SortLast
+                | Self::Merge
         )
     }
 
@@ -157,9 +192,14 @@ impl Which {
             Self::LocalAny => "local (any)",
             Self::Draw => "draw",
             Self::DrawAny => "draw (any)",
+            Self::CountBins => "count_bins",
+            Self::ScanBins => "scan_bins",
+            Self::WriteBins => "write_bins",
             Self::ArrangeTiles => "arrange_tiles",
             Self::Tiles(Kind::Near) => "tiles (near)",
             Self::Tiles(Kind::General) => "tiles (general)",
+            Self::SortLast => "sort_last",
+            Self::Merge => "merge",
         }
     }
 
@@ -174,17 +214,21 @@ impl Which {
             Self::Stage(Stage::Local) | Self::LocalAny => &[Stage::Local],
             Self::Stage(Stage::Balance) => &[Stage::Balance],
             Self::Stage(Stage::Deal) => &[Stage::Deal],
+            Self::Stage(Stage::Blend) => &[Stage::Blend],
+            Self::Stage(Stage::Filter) => &[Stage::Filter],
             Self::Stage(Stage::MeshPlaces) => &[Stage::MeshPlaces],
             Self::Stage(Stage::Mesh) => &[Stage::Mesh],
             Self::Stage(Stage::Flush) => &[Stage::Flush],
             Self::Stage(Stage::KnownAnswers) => &[Stage::KnownAnswers],
             Self::Arrange => &[Stage::Bound, Stage::Split],
+            Self::ArrangeDraw | Self::Draw | Self::DrawAny => &[Stage::Draw, Stage::SortLast],
             Self::Stage(Stage::Draw)
-            | Self::ArrangeDraw
-            | Self::Draw
-            | Self::DrawAny
+            | Self::CountBins
+            | Self::ScanBins
+            | Self::WriteBins
             | Self::ArrangeTiles
             | Self::Tiles(_) => &[Stage::Draw],
+            Self::Stage(Stage::SortLast) | Self::SortLast | Self::Merge => &[Stage::SortLast],
         }
     }
 
@@ -252,6 +296,8 @@ impl Which {
             ],
             Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
             Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
+            Self::Stage(Stage::Blend) => &[GEN, ITEMS, NUM, BLEND],
+            Self::Stage(Stage::Filter) => &[GEN, ITEMS, NUM, ORDER, FILTER],
             Self::Stage(Stage::MeshPlaces) => &[GEN, COUNTS, SURFACE, BORDER, MESH_PLACES],
             Self::Stage(Stage::Mesh) => &[
                 GEN,
@@ -272,7 +318,7 @@ impl Which {
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],
-            Self::ArrangeDraw => &[GEN, GRIDS, ROUNDS, ARRANGE_DRAW],
+            Self::ArrangeDraw => &[GEN, SURFACE, BORDER, SITE, GRIDS, BLOCKS, BINS, ROUNDS, ARRANGE_DRAW],
             Self::Stage(Stage::Draw) | Self::Draw => &[
                 GEN,
                 GRIDS,
@@ -283,6 +329,8 @@ impl Which {
                 NET,
                 EYE,
                 PROJECT,
+                SITE,
+                BLOCKS,
                 TRIANGLE,
                 DICE,
                 DICE_BEZIER,
@@ -300,6 +348,8 @@ impl Which {
                 EYE,
                 GREGORY,
                 PROJECT,
+                SITE,
+                BLOCKS,
                 TRIANGLE,
                 DICE,
                 DICE_GREGORY,
@@ -308,13 +358,23 @@ impl Which {
                 SHADE,
                 DRAW,
             ],
-            Self::ArrangeTiles => &[GEN, GRIDS, ROUNDS, ARRANGE_TILES],
-            Self::Tiles(Kind::Near) => {
-                &[GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, TRIANGLE, SAMPLE, NEAR, ROUNDS, TILES]
-            }
-            Self::Tiles(Kind::General) => {
-                &[GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, TRIANGLE, CLIP, SAMPLE, GENERAL, ROUNDS, TILES]
-            }
+            Self::CountBins => &[GEN, SITE, GRIDS, BLOCKS, BINS, COUNT_BINS, FILL_BINS],
+            Self::ScanBins => &[GEN, SITE, GRIDS, BLOCKS, BINS, SCAN_BINS],
+            Self::WriteBins => &[GEN, SITE, GRIDS, BLOCKS, BINS, WRITE_BINS, FILL_BINS],
+            Self::ArrangeTiles => &[GEN, SITE, GRIDS, BLOCKS, BINS, ROUNDS, ARRANGE_TILES],
+            Self::Tiles(Kind::Near) => &[
+                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, TRIANGLE, SAMPLE,
+                CANDIDATES, NEAR, ROUNDS, LOOPS, TILES,
+            ],
+            Self::Tiles(Kind::General) => &[
+                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, TRIANGLE, CLIP, SAMPLE,
+                CANDIDATES, GENERAL, ROUNDS, LOOPS, TILES,
+            ],
+            Self::Stage(Stage::SortLast) | Self::SortLast => &[
+                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, ORDER, TRIANGLE, CLIP, SAMPLE,
+                GENERAL, ROUNDS, LOOPS, KEYS, SORT_LAST,
+            ],
+            Self::Merge => &[GEN, ITEMS, SITE, ORDER, KEYS, MERGE],
         }
     }
 
@@ -341,10 +401,18 @@ impl Which {
                 let own = [read(&["frame", "objects", "patches", "draws"]), write(&["grids"])].concat();
                 own.into_iter().chain(more_patches(Stage::Draw)).collect()
             }
-            Self::ArrangeTiles => [read(&["frame", "grids"]), write(&["rounds", "groups"])].concat(),
+            Self::CountBins | Self::WriteBins => [read(&["frame", "grids"]), write(&["bins"])].concat(),
+            Self::ScanBins => [read(&["frame"]), write(&["bins"])].concat(),
+            Self::ArrangeTiles => [read(&["frame", "bins"]), write(&["rounds", "groups"])].concat(),
             Self::Tiles(_) => {
-                [read(&["frame", "draws", "grids"]), write(&["samples", "colours", "rounds"])].concat()
+                let own = read(&["frame", "draws", "grids", "bins", "behind"]);
+                [own, write(&["samples", "colours", "rounds"])].concat()
             }
+            Self::SortLast => {
+                let own = read(&["frame", "draws", "grids", "behind", "samples"]);
+                [own, write(&["colours", "keys", "rounds"])].concat()
+            }
+            Self::Merge => [read(&["frame"]), write(&["samples", "keys"])].concat(),
         }
     }
 }

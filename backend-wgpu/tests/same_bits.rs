@@ -3,10 +3,11 @@
 use micropoly::{Borders, FrameOptions, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices, wgpu};
+use micropoly_conformance::stages::{Input, run_stage};
 use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::abi::{
-    Control, DRAW, Draw, Frame, Group, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Shared,
-    Surface, Verdict,
+    Colour, Control, DRAW, Draw, FLAG_LAYERS, FLAG_SMOOTH, FLAG_SORT_LAST, Frame, Group, MeshPlace,
+    MeshTotals, MeshVertex, Object, Patch, Question, Sample, Shared, Surface, Verdict,
 };
 use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::backend::Device;
@@ -14,8 +15,9 @@ use micropoly_core::border::Side;
 use micropoly_core::displacement::Displacement;
 use micropoly_core::kernel::known_answers::answer;
 use micropoly_core::memory::stack_min;
+use micropoly_core::pattern::{Region, Samples};
 use micropoly_core::schedule::Scheduler;
-use micropoly_core::stage::{Items, Stage};
+use micropoly_core::stage::{Extent, Items, Stage};
 use micropoly_core::tessellate::MeshBuffers;
 
 fn open() -> WgpuDevice {
@@ -163,6 +165,60 @@ fn large_micropolygons_have_the_same_bits() {
     let tiny = FrameOptions { width: 160, height: 90, rate: 1, ..FrameOptions::default() };
     assert_same(&case("teapot", FrameOptions { levels: 1, ..tiny }), &[4096]);
     assert_same(&case("eyesplit", FrameOptions { levels: 3, ..tiny }), &[7]);
+}
+
+/// Tiles of all sizes, and both rasterisers; colours between vertices; layers, where one object can be seen through.
+#[test]
+fn samples_and_layers_have_the_same_bits() {
+    let tiny = FrameOptions { width: 96, height: 54, ..FrameOptions::default() };
+    let mut device = open();
+    for (scene, samples, tile, flags) in [
+        ("teapot", Samples::Four, 4, FLAG_SMOOTH),
+        ("eyesplit", Samples::Sixteen, 0, FLAG_SMOOTH | FLAG_LAYERS),
+        ("gregory", Samples::SixtyFour, 32, FLAG_LAYERS),
+        ("still-life", Samples::One, 8, FLAG_LAYERS),
+    ] {
+        let mut case = case(scene, tiny);
+        case.objects[0].opacity = 0.5;
+        case.frame = case.frame.with_region(Region::whole(tiny.width, tiny.height, samples), tile);
+        for flags in [flags, flags | FLAG_SORT_LAST] {
+            case.frame.flags |= flags;
+            let expected = on_cpu(&case);
+            assert_eq!(run(&mut device, &case, 4096).expect("renders"), expected, "{}, {flags}", case.name);
+        }
+    }
+}
+
+/// Draws that all touch all tiles: so many at once that the lists have no room for them.
+#[test]
+fn draws_that_lists_have_no_room_for_have_the_same_bits() {
+    let (side, count) = (256, 300);
+    let case = case("teapot", FrameOptions { width: side, height: side, ..FrameOptions::default() });
+    let frame = case.frame.with_region(Region::whole(side, side, Samples::One), 4);
+    let pixels = (side * side) as usize;
+    let everywhere = side << 16;
+    let draw = |index| Draw { columns: everywhere, rows: everywhere, ..whole(index % 32, [1, 2]) };
+    let draws: Vec<Draw> = (0..count).map(draw).collect();
+    let input = Input {
+        stage: Stage::Draw,
+        items: Items::Image(Extent::of(&frame, pixels as u64)),
+        buffers: vec![
+            words(&[frame]),
+            words(&case.objects),
+            words(&case.patches),
+            words(&[Control { waiting: count, ..Control::default() }]),
+            words(&draws),
+            words(&[Sample::default()]),
+            words(&vec![Sample::default(); pixels]),
+            words(&vec![Colour::default(); pixels]),
+        ],
+    };
+    let expected = run_stage(&mut CpuDevice::new(1).expect("threads"), &input).expect("runs");
+    assert!(run_stage(&mut open(), &input).expect("runs") == expected);
+}
+
+fn words<T: Shared>(entries: &[T]) -> Vec<u32> {
+    bytemuck::cast_slice(entries).to_vec()
 }
 
 /// More groups than one dimension of a dispatch has.
@@ -352,7 +408,7 @@ fn a_buffer_beyond_the_limits_is_an_error() {
 /// Patches that one binding has no room for lie in two.
 #[test]
 fn patches_in_two_pieces_give_the_same_bits() {
-    let tiny = FrameOptions { width: 160, height: 90, ..FrameOptions::default() };
+    let tiny = FrameOptions { width: 96, height: 54, ..FrameOptions::default() };
     for case in [case("spheres", tiny), displaced("spheres", tiny)] {
         let mut device = open();
         device.limit_buffers(250_000);
@@ -364,7 +420,7 @@ fn patches_in_two_pieces_give_the_same_bits() {
 /// llvmpipe ends loops after 65535 iterations; that may fail, but must not give other bits.
 #[test]
 fn a_loop_that_the_driver_cuts_is_an_error() {
-    let start = "let count = grids[HEAD_COUNT];";
+    let start = "let list = list_of(block);";
     let spin = "var spin = 0u; while spin < 70000u + ZERO { spin += 1u + ZERO; }";
     let endless = |file: &str, source: &str| match file {
         "tiles.wgsl" => {

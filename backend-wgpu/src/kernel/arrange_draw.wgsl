@@ -1,72 +1,88 @@
-// No mirror in core: the next chunk of draws, its boxes, and the groups that dice it.
+// No mirror in core: the next chunk of draws, as many as their tiles' lists have room for, and the groups that dice it and
+// that sample it one by one.
 
 @group(0) @binding(0) var<storage, read> frame: Frame;
 @group(0) @binding(1) var<storage, read> control: Control;
 @group(0) @binding(2) var<storage, read> draws: array<Draw>;
 @group(0) @binding(3) var<storage, read_write> grids: array<u32>;
 @group(0) @binding(4) var<storage, read_write> rounds: Rounds;
-@group(0) @binding(5) var<storage, read_write> groups: array<u32, 3>;
+@group(0) @binding(5) var<storage, read_write> groups: array<u32, 6>;
 
-@compute @workgroup_size(BLOCKS)
-fn main(@builtin(local_invocation_index) block: u32) {
-    let start = rounds.chunk * CHUNK;
+const RUNS: u32 = 256u;
+// Draws a run.
+const RUN: u32 = CHUNK / RUNS;
+
+// Entries of the lists that each run of draws may need.
+var<workgroup> entries: array<u32, RUNS>;
+// Not 0 if any draw is large.
+var<workgroup> some_large: atomic<u32>;
+
+@compute @workgroup_size(RUNS)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    let start = rounds.next;
     let waiting = control.waiting + control.fresh;
-    let count = clamped(waiting, start) - start;
-    box_of(block, start, start + count);
-    storageBarrier();
-    if block != 0u {
-        return;
+    let left = select(0u, waiting - start, waiting > start);
+    let most = select(left, CHUNK, left > CHUNK);
+    if lane == 0u {
+        atomicStore(&some_large, 0u);
     }
-    grids[HEAD_START] = start;
-    grids[HEAD_COUNT] = count;
-    put_tiles();
-    grids[HEAD_KINDS] = 0u;
-    grids[HEAD_KINDS + 1u] = 0u;
-    rounds.chunk += 1u;
-    rounds.round = 0u;
-    groups[0] = count;
-    groups[1] = 1u;
-    groups[2] = select(0u, 1u, count > 0u);
+    workgroupBarrier();
+    entries[lane] = 0u;
+    for (var index = lane * RUN; index < (lane + 1u) * RUN && index < most; index++) {
+        look_at(draws[start + index], lane);
+    }
+    workgroupBarrier();
+    if lane == 0u {
+        let count = fitting(start, most);
+        grids[HEAD_START] = start;
+        rounds.next = start + count;
+        rounds.left = left - count;
+        rounds.round = 0u;
+        put_groups(0u, count, 1u);
+        put_groups(3u, count, select(1u, PARTS, atomicLoad(&some_large) != 0u));
+    }
 }
 
-// The end of the chunk that starts here.
-fn clamped(waiting: u32, start: u32) -> u32 {
-    let end = select(waiting, start + CHUNK, waiting > start + CHUNK);
-    return select(end, start, end < start);
+fn put_groups(at: u32, columns: u32, rows: u32) {
+    groups[at] = columns;
+    groups[at + 1u] = rows;
+    groups[at + 2u] = select(0u, 1u, columns > 0u);
 }
 
-// The pixels that the draws of a block can touch, packed as those of a draw.
-fn box_of(block: u32, start: u32, end: u32) {
-    var extents = vec2<u32>(0xffffu, 0xffffu);
-    for (var index = 0u; index < BLOCK; index++) {
-        let item = start + block * BLOCK + index;
-        if item < end {
-            extents = joined(extents, vec2<u32>(draws[item].columns, draws[item].rows));
+fn look_at(draw: Draw, lane: u32) {
+    let blocks = blocks_of_draw(draw);
+    let rates = draw_rates(draw);
+    entries[lane] += tiles_in(blocks.x, blocks.y);
+    if is_large(blocks.x, blocks.y, rates.x * rates.y) {
+        atomicStore(&some_large, 1u);
+    }
+}
+
+// Columns and rows of blocks that a draw can touch.
+fn blocks_of_draw(draw: Draw) -> vec2<u32> {
+    return vec2<u32>(
+        blocks_of(samples_of(draw.columns, frame_columns()), i32(frame.sample_left)),
+        blocks_of(samples_of(draw.rows, frame_rows()), i32(frame.sample_top)),
+    );
+}
+
+// How many draws from the first on, up to `most`, the list has room for.
+fn fitting(start: u32, most: u32) -> u32 {
+    var room = list_room();
+    var run = 0u;
+    while run < RUNS && entries[run] <= room {
+        room -= entries[run];
+        run += 1u;
+    }
+    var count = run * RUN;
+    while count < most {
+        let blocks = blocks_of_draw(draws[start + count]);
+        let needed = tiles_in(blocks.x, blocks.y);
+        if needed > room {
+            return count;
         }
+        room -= needed;
+        count += 1u;
     }
-    grids[BOXES + 2u * block] = extents.x;
-    grids[BOXES + 2u * block + 1u] = extents.y;
-}
-
-// The box around two, columns and rows.
-fn joined(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
-    let mask = vec2<u32>(0xffffu);
-    let half = vec2<u32>(16u);
-    let low = select(b & mask, a & mask, (a & mask) < (b & mask));
-    let high = select(b >> half, a >> half, (a >> half) > (b >> half));
-    return low | (high << half);
-}
-
-// The tiles that the boxes of all blocks touch.
-fn put_tiles() {
-    var extents = vec2<u32>(0xffffu, 0xffffu);
-    for (var block = 0u; block < BLOCKS; block++) {
-        extents = joined(extents, vec2<u32>(grids[BOXES + 2u * block], grids[BOXES + 2u * block + 1u]));
-    }
-    for (var k = 0u; k < 2u; k++) {
-        let first = (extents[k] & 0xffffu) / TILE;
-        let end = tiles(extents[k] >> 16u);
-        grids[HEAD_TILES + 2u * k] = first;
-        grids[HEAD_TILES + 2u * k + 1u] = select(0u, end - first, end > first);
-    }
+    return most;
 }

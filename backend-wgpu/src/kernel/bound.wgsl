@@ -51,16 +51,18 @@ fn reach_of(offsets: array<f32, 16>) -> Reach {
 
 fn pixels_seen(seen: Seen) -> vec4<i32> {
     return vec4<i32>(
-        pixel_range(seen.x, frame.centre_x, frame.width, seen.margin),
-        pixel_range(seen.y, frame.centre_y, frame.height, seen.margin),
+        pixel_range(seen.x, frame.centre_x, vec2<u32>(frame.left, frame.right), seen.margin),
+        pixel_range(seen.y, frame.centre_y, vec2<u32>(frame.top, frame.bottom), seen.margin),
     );
 }
 
-fn pixel_range(reach: Reach, centre: f32, pixels: u32, margin: f32) -> vec2<i32> {
-    let size = float(i32(pixels));
+// Of the pixels from `whole.x` to `whole.y`.
+fn pixel_range(reach: Reach, centre: f32, whole: vec2<u32>, margin: f32) -> vec2<i32> {
+    let first = float(i32(whole.x));
+    let end = float(i32(whole.y));
     let low = sub(add(reach.low, centre), margin);
     let high = add(add(reach.high, centre), add(margin, 1.0));
-    return vec2<i32>(floor(clamp(low, 0.0, size)), floor(clamp(high, 0.0, size)));
+    return vec2<i32>(floor(clamp(low, first, end)), floor(clamp(high, first, end)));
 }
 
 fn bound(surface: Surface) -> Verdict {
@@ -80,7 +82,7 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
     let points = measured(hull.part);
     let lengths = lengths_of(surface, hull, points);
     var extents = vec2<f32>(lengths.u, lengths.v);
-    var pixels = whole_image();
+    var pixels = whole_window();
     if crosses && !is_whole() {
         if nearest_smooth(hull) < measured_from() {
             extents = extents_if_cut(hull.part);
@@ -105,8 +107,8 @@ fn is_out_of_view(hull: Hull, end: f32, is_vague: bool) -> bool {
 }
 
 // Left, right, top and bottom in pixels; right and bottom are one past the last.
-fn whole_image() -> vec4<i32> {
-    return vec4<i32>(0, i32(frame.width), 0, i32(frame.height));
+fn whole_window() -> vec4<i32> {
+    return vec4<i32>(i32(frame.left), i32(frame.right), i32(frame.top), i32(frame.bottom));
 }
 
 const PIXELS_EMPTY: vec4<i32> = vec4<i32>(0, 0, 0, 0);

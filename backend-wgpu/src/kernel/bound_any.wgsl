@@ -132,7 +132,7 @@ fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
 fn pixels_of(hull: Hull) -> vec4<i32> {
     let nearest = nearest_of(hull);
     if nearest < frame.near || is_whole() {
-        return whole_image();
+        return whole_window();
     }
     return pixels_seen(see(hull, nearest, measured(hull.part)));
 }

@@ -7,8 +7,9 @@
 @group(0) @binding(4) var<storage, read_write> grids: array<u32>;
 @group(0) @binding(5) var<storage, read> patches_more: array<Patch>;
 
-// A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `near` in `triangle.wgsl`.
-const NARROW: i32 = 16000;
+// A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: no corner is 16384 away from any sample of its box,
+// and no sample of its box as far outside of it as one column of samples is from the next, 2048 at most.
+const NARROW: i32 = 14000;
 
 // The grid on screen, by `vertex_number`.
 var<workgroup> grid_x: array<i32, GRID>;
@@ -44,7 +45,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     seek_faces(rates, lane);
     workgroupBarrier();
     if lane == 0u {
-        put_head(draw, base);
+        put_head(draw, object, base);
     }
 }
 
@@ -113,26 +114,18 @@ fn kind() -> u32 {
 }
 
 // What a grid that is whole can touch is known better now than when it was bounded.
-fn put_head(draw: Draw, base: u32) {
+fn put_head(draw: Draw, object: u32, base: u32) {
+    var columns = samples_of(draw.columns, frame_columns());
+    var rows = samples_of(draw.rows, frame_rows());
     let found = kind();
-    grids[base] = found;
-    let columns = packed_range(atomicLoad(&low_x), atomicLoad(&high_x), frame.width);
-    let rows = packed_range(atomicLoad(&low_y), atomicLoad(&high_y), frame.height);
-    grids[base + 1u] = select(draw.columns, columns, found == KIND_NEAR);
-    grids[base + 2u] = select(draw.rows, rows, found == KIND_NEAR);
-    if found != KIND_HIDDEN {
-        grids[HEAD_KINDS + found - 1u] = 1u;
+    if found == KIND_NEAR {
+        columns = overlap(columns, samples_between(atomicLoad(&low_x), atomicLoad(&high_x)));
+        rows = overlap(rows, samples_between(atomicLoad(&low_y), atomicLoad(&high_y)));
     }
-}
-
-// The pixels between the first and the last that the box around the vertices covers, of `count`, packed.
-fn packed_range(low: i32, high: i32, count: u32) -> u32 {
-    let pixels = pixels_between(low, high);
-    return within(pixels.x, count) | (within(pixels.y, count) << 16u);
-}
-
-fn within(pixel: i32, count: u32) -> u32 {
-    return select(select(u32(pixel), count, pixel > i32(count)), 0u, pixel < 0);
+    grids[base] = found;
+    grids[base + 1u] = blocks_of(columns, i32(frame.sample_left));
+    grids[base + 2u] = blocks_of(rows, i32(frame.sample_top));
+    grids[base + 3u] = bitcast<u32>(objects[object].opacity);
 }
 
 fn on_screen(row: u32, column: u32) -> Vertex {

@@ -1,18 +1,17 @@
 // Mirrors `micropolygon`, `clipped` and `triangle` of core/src/kernel/sample.rs: any grid whatever.
 
 const KIND: u32 = KIND_GENERAL;
-// Draws that are looked at at once, and so many are enough to be sampled together: few, since each may be long
-// work. See `tiles.wgsl`.
-const WINDOW: u32 = 16u;
-const ENOUGH: u32 = 1u;
+// Draws that are sampled together by `tiles.wgsl`: few, since each may be long work.
+const TOGETHER: u32 = 16u;
+// The first of a quad's samples that this invocation looks at, and how many farther the next one is.
+var<private> share: vec2<i32> = vec2<i32>(0, 1);
 
 fn sample_item(base: u32, item: Item, key: u32) {
     let a = vertex_at(base, item.corners.x);
     let b = vertex_at(base, item.corners.y);
     let c = vertex_at(base, item.corners.z);
     let d = vertex_at(base, item.corners.w);
-    let whole = a.w > 0.0 && b.w > 0.0 && c.w > 0.0 && d.w > 0.0;
-    if whole {
+    if is_whole(a, b, c, d) {
         micropolygon(a, b, c, d, key);
     } else {
         let from_a = space_at(base, item.corners.x, 0u);
@@ -22,17 +21,52 @@ fn sample_item(base: u32, item: Item, key: u32) {
     }
 }
 
+fn is_whole(a: Vertex, b: Vertex, c: Vertex, d: Vertex) -> bool {
+    return a.w > 0.0 && b.w > 0.0 && c.w > 0.0 && d.w > 0.0;
+}
+
+// Sample number `index` of a box.
+fn sample_in(box: vec4<i32>, index: i32) -> vec2<i32> {
+    let wide = box.y - box.x;
+    return vec2<i32>(box.x + index % wide, box.z + index / wide);
+}
+
+fn count_in(box: vec4<i32>) -> i32 {
+    return imax(box.y - box.x, 0) * imax(box.w - box.z, 0);
+}
+
 // One quad, as the triangles a b c and a c d.
 fn micropolygon(a: Vertex, b: Vertex, c: Vertex, d: Vertex, key: u32) {
-    let pixels = pixels_of_quad(a, b, c, d);
-    for (var y = pixels.z; y < pixels.w; y++) {
-        for (var x = pixels.x; x < pixels.y; x++) {
-            let w = max(sample_triangle(a, b, c, x, y), sample_triangle(a, c, d, x, y));
-            if w > 0.0 {
-                put(x, y, w, key);
-            }
+    let box = samples_of_quad(a, b, c, d);
+    for (var index = share.x; index < count_in(box); index += share.y) {
+        let at = sample_in(box, index);
+        let found = sample_quad(a, b, c, d, site(at.x, at.y));
+        if found.hit.w > 0.0 {
+            put(at.x, at.y, found, key);
         }
     }
+}
+
+// What a quad shows at a sample: of two triangles that overlap, the nearer, of two equally near the first.
+fn sample_quad(a: Vertex, b: Vertex, c: Vertex, d: Vertex, at: vec2<i32>) -> Found {
+    let first = sample_triangle(a, b, c, at);
+    let second = sample_triangle(a, c, d, at);
+    if second.w > first.w {
+        return Found(second, PART_SECOND);
+    }
+    return Found(first, PART_FIRST);
+}
+
+// What a micropolygon that was found at a sample shows there.
+fn found_again(base: u32, item: Item, at: vec2<i32>) -> Found {
+    let a = vertex_at(base, item.corners.x);
+    let b = vertex_at(base, item.corners.y);
+    let c = vertex_at(base, item.corners.z);
+    let d = vertex_at(base, item.corners.w);
+    if is_whole(a, b, c, d) {
+        return sample_quad(a, b, c, d, at);
+    }
+    return Found(NO_HIT, PART_CLIPPED);
 }
 
 // Clips a triangle and samples what is left of it, as a fan.
@@ -49,13 +83,12 @@ fn clipped(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, key: u32) {
 }
 
 fn triangle(a: Vertex, b: Vertex, c: Vertex, key: u32) {
-    let pixels = pixels_of_quad(a, b, c, c);
-    for (var y = pixels.z; y < pixels.w; y++) {
-        for (var x = pixels.x; x < pixels.y; x++) {
-            let w = sample_triangle(a, b, c, x, y);
-            if w > 0.0 {
-                put(x, y, w, key);
-            }
+    let box = samples_of_quad(a, b, c, c);
+    for (var index = share.x; index < count_in(box); index += share.y) {
+        let at = sample_in(box, index);
+        let found = sample_triangle(a, b, c, site(at.x, at.y));
+        if found.w > 0.0 {
+            put(at.x, at.y, Found(found, PART_CLIPPED), key);
         }
     }
 }

@@ -1,4 +1,5 @@
-// Mirrors core/src/kernel/triangle.rs: coverage by integer edge functions, depth by exact weights.
+// Mirrors core/src/kernel/triangle.rs: coverage by integer edge functions, depth by exact weights; where samples lie is in
+// `site.wgsl`.
 //
 // Edge functions need 64-bit integers, which WGSL has not: they are pairs of words. Where all corners lie
 // within 64 pixels of the sample they fit 32 bits, which gives the same answers faster.
@@ -10,9 +11,18 @@ struct Corner {
     w: f32,
 }
 
-fn corner(vertex: Vertex, column: i32, row: i32) -> Corner {
-    return Corner(vertex.x - centre(column), vertex.y - centre(row), vertex.w);
+fn corner(vertex: Vertex, at: vec2<i32>) -> Corner {
+    return Corner(vertex.x - at.x, vertex.y - at.y, vertex.w);
 }
+
+// What a triangle shows at a sample: 1 / distance, 0 if it does not own it; shares of the second and the third corner.
+struct Hit {
+    w: f32,
+    for_b: f32,
+    for_c: f32,
+}
+
+const NO_HIT: Hit = Hit(0.0, 0.0, 0.0);
 
 // A 64-bit integer in two's complement.
 struct Wide {
@@ -107,13 +117,19 @@ fn owns_border(before: Corner, after: Corner, edge_sign: i32, area: i32) -> bool
     return value > 0 || (value == 0 && (dy < 0 || (dy == 0 && dx > 0)));
 }
 
-// 1 / distance from area and weights that fit 24 bits.
-fn depth(w: vec3<f32>, area: u32, for_b: u32, for_c: u32) -> f32 {
+// From area and weights that fit 24 bits.
+fn hit(w: vec3<f32>, area: u32, for_b: u32, for_c: u32) -> Hit {
     let share = recip(float(i32(area)));
-    let weight_b = mul(float(i32(for_b)), share);
-    let weight_c = mul(float(i32(for_c)), share);
-    let mean = add(w.x, add(mul(weight_b, sub(w.y, w.x)), mul(weight_c, sub(w.z, w.x))));
-    return clamp(mean, min(min(w.x, w.y), w.z), max(max(w.x, w.y), w.z));
+    let share_b = mul(float(i32(for_b)), share);
+    let share_c = mul(float(i32(for_c)), share);
+    return Hit(weighted(w, share_b, share_c), share_b, share_c);
+}
+
+// A value of three corners at a place inside the triangle, given the shares of the second and the third.
+fn weighted(value: vec3<f32>, for_b: f32, for_c: f32) -> f32 {
+    let a = value.x;
+    let mean = add(a, add(mul(for_b, sub(value.y, a)), mul(for_c, sub(value.z, a))));
+    return clamp(mean, min(min(a, value.y), value.z), max(max(a, value.y), value.z));
 }
 
 // Bits by which an area must be shifted to fit a float's mantissa, from its leading zeros in 64 bits.
@@ -125,44 +141,43 @@ fn near(a: Corner) -> bool {
     return (magnitude(a.x) | magnitude(a.y)) < 16384u;
 }
 
-// 1 / distance at the centre of a pixel; 0 if the triangle does not own that sample.
-fn sample_triangle(a: Vertex, b: Vertex, c: Vertex, column: i32, row: i32) -> f32 {
-    let p = corner(a, column, row);
-    let q = corner(b, column, row);
-    let r = corner(c, column, row);
+fn sample_triangle(a: Vertex, b: Vertex, c: Vertex, at: vec2<i32>) -> Hit {
+    let p = corner(a, at);
+    let q = corner(b, at);
+    let r = corner(c, at);
     if near(p) && near(q) && near(r) {
         return sample_near(p, q, r);
     }
     return sample_wide(p, q, r);
 }
 
-fn sample_near(a: Corner, b: Corner, c: Corner) -> f32 {
+fn sample_near(a: Corner, b: Corner, c: Corner) -> Hit {
     let ea = edge(b, c);
     let eb = edge(c, a);
     let ec = edge(a, b);
     let area = ea + eb + ec;
     if !owns(a, b, c, vec3<i32>(int_sign(ea), int_sign(eb), int_sign(ec)), int_sign(area)) {
-        return 0.0;
+        return NO_HIT;
     }
     let whole = magnitude(area);
     let spare = spare_bits(32u + countLeadingZeros(whole));
     let w = vec3<f32>(a.w, b.w, c.w);
-    return depth(w, whole >> spare, magnitude(eb) >> spare, magnitude(ec) >> spare);
+    return hit(w, whole >> spare, magnitude(eb) >> spare, magnitude(ec) >> spare);
 }
 
-fn sample_wide(a: Corner, b: Corner, c: Corner) -> f32 {
+fn sample_wide(a: Corner, b: Corner, c: Corner) -> Hit {
     let ea = wide_edge(b, c);
     let eb = wide_edge(c, a);
     let ec = wide_edge(a, b);
     let area = wide_add(wide_add(ea, eb), ec);
     let signs = vec3<i32>(wide_sign(ea), wide_sign(eb), wide_sign(ec));
     if !owns(a, b, c, signs, wide_sign(area)) {
-        return 0.0;
+        return NO_HIT;
     }
     let whole = wide_abs(area);
     let spare = spare_bits(wide_leading_zeros(whole));
     let w = vec3<f32>(a.w, b.w, c.w);
-    return depth(
+    return hit(
         w,
         wide_shifted(whole, spare),
         wide_shifted(wide_abs(eb), spare),
@@ -175,14 +190,4 @@ fn signed_area(a: Vertex, b: Vertex, c: Vertex) -> i32 {
     let to_b = Corner(b.x - a.x, b.y - a.y, 0.0);
     let to_c = Corner(c.x - a.x, c.y - a.y, 0.0);
     return wide_sign(wide_edge(to_b, to_c));
-}
-
-fn centre(pixel: i32) -> i32 {
-    return pixel * SUBPIXELS + SUBPIXELS / 2;
-}
-
-// First pixel whose centre is not before `low`, and one past the last whose centre is not after `high`.
-fn pixels_between(low: i32, high: i32) -> vec2<i32> {
-    let half = SUBPIXELS / 2;
-    return vec2<i32>((low + half - 1) >> SUBPIXEL_BITS, ((high - half) >> SUBPIXEL_BITS) + 1);
 }
