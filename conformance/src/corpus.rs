@@ -507,6 +507,10 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
         if frame.flags & FLAG_WEBER != 0 {
             surface.borders = [0; 4]; // by those rules no side is ever divided
         }
+        // In no frame do two surfaces of a patch overlap: their micropolygons could have one identity and two colours.
+        if draws.iter().any(|draw: &Draw| overlap(draw.surface(), surface)) {
+            continue;
+        }
         let verdict = bound_any(&frame, &objects, &patches, surface);
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {
@@ -538,6 +542,14 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
         empty::<Colour>(places as usize),
     ];
     (Items::Image(Extent::of(&frame, places)), buffers)
+}
+
+/// Are both of one patch, and have some of it in common?
+fn overlap(a: Surface, b: Surface) -> bool {
+    let apart = |a: u32, a_size: u32, b: u32, b_size: u32| a + a_size <= b || b + b_size <= a;
+    a.patch_id == b.patch_id
+        && !apart(a.u, a.u_size(), b.u, b.u_size())
+        && !apart(a.v, a.v_size(), b.v, b.v_size())
 }
 
 /// Any number of samples, and any part of the image.

@@ -157,8 +157,8 @@ pub fn run_scheduled<D: Device>(
     case: &Case,
     schedule: Schedule,
 ) -> Result<Outcome, D::Error> {
-    let (plan, buffers, found) = render(device, case, schedule)?;
-    let Found { counts, drawn_set, samples, covered, colours } = found;
+    let Found { plan, buffers, counts, drawn_set, samples, covered, colours } =
+        render(device, case, schedule)?;
     Ok(Outcome {
         samples,
         colours,
@@ -173,8 +173,10 @@ pub fn run_scheduled<D: Device>(
     })
 }
 
-/// What is to be known before layers are put together.
-pub(crate) struct Found {
+/// A case that was rendered, and what is to be known before layers are put together.
+pub(crate) struct Found<B> {
+    pub(crate) plan: FramePlan,
+    pub(crate) buffers: Buffers<B>,
     counts: Counts,
     drawn_set: String,
     samples: String,
@@ -187,7 +189,7 @@ pub(crate) fn render<D: Device>(
     device: &mut D,
     case: &Case,
     schedule: Schedule,
-) -> Result<(FramePlan, Buffers<D::Buffer>, Found), D::Error> {
+) -> Result<Found<D::Buffer>, D::Error> {
     let plan = case.plan(schedule)?;
     let mut buffers = plan.prepare(device, &case.objects, &case.patches)?;
     let mut witness = Witness::new(device);
@@ -199,7 +201,7 @@ pub(crate) fn render<D: Device>(
         counts = counts.and(plan.run(device, &mut buffers, |_| {})?);
     }
     plan.filter(device, &buffers, &case.taps())?;
-    Ok((plan, buffers, Found { counts, drawn_set, samples, covered, colours }))
+    Ok(Found { plan, buffers, counts, drawn_set, samples, covered, colours })
 }
 
 fn hash_samples<D: Device>(

@@ -9,7 +9,7 @@ use micropoly_core::stage::Stage;
 use serde::Serialize;
 
 use crate::corpus;
-use crate::outcome::{Case, Outcome, Schedule, render, run, run_scheduled};
+use crate::outcome::{Case, Found, Outcome, Schedule, render, run, run_scheduled};
 use crate::stages::{Difference, first_difference, run_stage};
 
 /// How one stage fared.
@@ -155,7 +155,7 @@ pub fn check_case<R: Device, D: Device>(
 /// # Errors
 /// What the plan or the device reports.
 pub fn pixels<D: Device>(device: &mut D, case: &Case, schedule: Schedule) -> Result<Vec<Pixel>, D::Error> {
-    let (plan, buffers, _) = render(device, case, schedule)?;
+    let Found { plan, buffers, .. } = render(device, case, schedule)?;
     let mut pixels = vec![Pixel::default(); plan.sizes().area.pixels as usize];
     device.read(&buffers.pixels, 0, &mut pixels)?;
     Ok(pixels)
