@@ -7,7 +7,7 @@ use crate::abi::{Colour, Draw, FLAG_CULL_BACKFACES, FLAG_SMOOTH, Frame, MAX_RATE
 use crate::kernel::blend::is_behind;
 use crate::kernel::clip::clip;
 use crate::kernel::dense::{Pattern, Quad, Shape};
-use crate::kernel::dice::{Grid, LANES};
+use crate::kernel::dice::{Grid, LANES, load};
 use crate::kernel::project::{Vertex, project_clipped};
 use crate::kernel::quads::{FOUND, NOTHING, Quads};
 use crate::kernel::triangle::{
@@ -108,14 +108,12 @@ pub fn sample<T: Target>(
     }
     let sampler = Sampler::new(frame, draw, opacity, grid);
     for row in 0..grid.rows - 1 {
-        if frame.pattern_bits > 0 {
-            for column in 0..grid.stride - 1 {
-                sampler.dense(pattern, (row, column), target);
-            }
-            continue;
-        }
         for block in (0..grid.stride - 1).step_by(LANES) {
-            sampler.block(row, block, target);
+            match (frame.pattern_bits, frame.flags & FLAG_SMOOTH) {
+                (0, _) => sampler.block(row, block, target),
+                (_, 0) => sampler.dense::<false, T>(pattern, row, block, target),
+                _ => sampler.dense::<true, T>(pattern, row, block, target),
+            }
         }
     }
 }
@@ -228,9 +226,46 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Samples one micropolygon that may own many samples.
+    /// Mean colours of [`LANES`] micropolygons of one row.
     #[inline(always)]
-    fn dense<T: Target>(&self, pattern: &Pattern, place: Place, target: &mut T) {
+    fn means(&self, at: usize) -> [[f32; LANES]; 3] {
+        let mut means = [[0.0; LANES]; 3];
+        for (mean, colour) in means.iter_mut().zip(&self.grid.colour) {
+            let below = at + self.grid.stride;
+            let [a, b] = [load(colour, at), load(colour, at + 1)];
+            let [d, c] = [load(colour, below), load(colour, below + 1)];
+            for l in 0..LANES {
+                mean[l] = mul(0.25, add(add(a[l], c[l]), add(b[l], d[l])));
+            }
+        }
+        means
+    }
+
+    /// Samples [`LANES`] micropolygons of one row, each of which may own many samples.
+    #[inline(always)]
+    fn dense<const SMOOTH: bool, T: Target>(
+        &self,
+        pattern: &Pattern,
+        row: usize,
+        block: usize,
+        target: &mut T,
+    ) {
+        let means = self.means(self.index((row, block)));
+        for l in 0..LANES.min(self.grid.stride - 1 - block) {
+            let mean = Colour { rgba: [means[0][l], means[1][l], means[2][l], self.opacity] };
+            self.quad::<SMOOTH, T>(pattern, (row, block + l), mean, target);
+        }
+    }
+
+    /// Samples one of them, of this mean colour.
+    #[inline(always)]
+    fn quad<const SMOOTH: bool, T: Target>(
+        &self,
+        pattern: &Pattern,
+        place: Place,
+        mean: Colour,
+        target: &mut T,
+    ) {
         let corners = self.corners(place);
         let quad = corners.map(|at| self.vertex(at));
         let samples = Quad::samples(self.frame, quad);
@@ -243,8 +278,6 @@ impl<'a> Sampler<'a> {
             return;
         }
         let quad = Quad::new(pattern, quad, samples);
-        let mean = self.mean(corners);
-        let is_smooth = self.frame.flags & FLAG_SMOOTH != 0;
         let shape = Shape::of(right - left);
         let (mut x, mut y) = (left, top);
         while y < bottom {
@@ -253,8 +286,7 @@ impl<'a> Sampler<'a> {
             while owned != 0 {
                 let l = owned.trailing_zeros() as usize;
                 owned &= owned - 1;
-                let colour =
-                    if is_smooth { self.smooth(corners, block.second[l], block.hit(l)) } else { mean };
+                let colour = if SMOOTH { self.smooth(corners, block.second[l], block.hit(l)) } else { mean };
                 let (across, down) = (l as i32 & (shape.columns - 1), l as i32 / shape.columns);
                 target.put(x + across, y + down, self.sample(place, block.w[l]), colour);
             }
