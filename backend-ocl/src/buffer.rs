@@ -90,6 +90,24 @@ impl OclBuffer {
         Ok(())
     }
 
+    /// Fills the first `entries` entries with a pattern, whose size is a power of two that divides theirs.
+    pub(crate) fn fill<T: Shared>(
+        &self,
+        queue: &CommandQueue,
+        pattern: T,
+        entries: u64,
+    ) -> Result<(), OclError> {
+        let pattern = bytemuck::bytes_of(&pattern);
+        let bytes = entries.min(self.entries) as usize * self.layout.size;
+        if bytes == 0 {
+            return Ok(());
+        }
+        // SAFETY: there are so many bytes, a multiple of the pattern's, and the queue keeps order.
+        unsafe { queue.enqueue_fill_buffer(&mut self.memory.borrow_mut(), pattern, 0, bytes, &[]) }
+            .map_err(OclError::driver("filling a buffer"))?;
+        Ok(())
+    }
+
     /// Copies `data` to the start.
     pub(crate) fn write<T: Shared>(&self, queue: &CommandQueue, data: &[T]) -> Result<(), OclError> {
         self.check::<T>(0, data.len())?;

@@ -1,48 +1,49 @@
-//! What the fused stage needs for itself: the grids of a chunk of draws.
+//! What the stages that draw need for themselves: the grids of a chunk of draws, and lists of tiles or keys of samples.
 
-use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
-
-use micropoly_core::abi::Shared;
-use opencl3::command_queue::CommandQueue;
-use opencl3::context::Context;
-
-use crate::buffer::OclBuffer;
-use crate::error::OclError;
-use crate::program::GROUP;
+use micropoly_core::abi::{Layout, Sample, Shared};
+use micropoly_core::stage::Extent;
 
 /// Draws a chunk; as `CHUNK` in `grids.cl`.
 pub(crate) const DRAWS: u64 = 2048;
-/// Draws that share a box; as `BLOCK` there.
-const BLOCK: u64 = GROUP as u64;
-/// Blocks a chunk; as `BLOCKS` there.
-pub(crate) const BLOCKS: u64 = DRAWS / BLOCK;
 /// Words before the first grid; as `GRIDS` there.
-const GRIDS: u64 = 4 + 2 * BLOCKS + 3 * DRAWS;
+const GRIDS: u64 = 4 + 6 * DRAWS;
+/// Most entries of all tiles' lists together; as `LIST_ROOM` in `sort_middle.cl`.
+const LIST_ROOM: u64 = 1 << 20;
+/// Log2 of the columns (and rows) of samples that a work-group samples, at most; as `BLOCK_BITS` in `grids.cl`.
+const BLOCK_BITS: u32 = 4;
 
-/// Room for the grids of a chunk at this rate: what was kept from before, if that is enough.
-///
-/// `limit`: most bytes in one piece; what is reserved is added to `allocated`.
-pub(crate) fn grids(
-    kept: Option<OclBuffer>,
-    device: (&Context, &CommandQueue),
-    (limit, allocated): (u64, &Arc<AtomicU64>),
-    rate: u32,
-) -> Result<OclBuffer, OclError> {
-    let words = grids_words(rate);
-    match kept.filter(|grids| grids.entries() >= words) {
-        Some(grids) => Ok(grids),
-        None => OclBuffer::new(device, ("grids", u32::LAYOUT, words), limit, allocated),
-    }
+/// A buffer that stages that draw have for themselves: its name, its layout, and its entries.
+pub(crate) type Own = (&'static str, Layout, u64);
+
+/// Those buffers: grids, lists of tiles, keys. One without entries is not needed.
+pub(crate) fn own(extent: &Extent) -> [Own; 3] {
+    let vertices = (u64::from(extent.rate) + 1).pow(2);
+    let grids = GRIDS + DRAWS * 9 * vertices;
+    let (lists, keys) =
+        if extent.sort_last { (0, extent.samples) } else { (tiles(extent) + 1 + LIST_ROOM, 0) };
+    [("grids", u32::LAYOUT, grids), ("lists", u32::LAYOUT, lists), ("keys", Sample::LAYOUT, keys)]
 }
 
-/// Bytes of the grids of a chunk at this rate.
-pub(crate) fn bytes(rate: u32) -> u64 {
-    grids_words(rate) * u32::LAYOUT.size as u64
+/// Bytes of those buffers.
+pub(crate) fn bytes(extent: &Extent) -> u64 {
+    own(extent).iter().map(|(_, layout, entries)| entries * layout.size as u64).sum()
 }
 
-/// Words of the grids of a chunk; see `grids.cl`.
-fn grids_words(rate: u32) -> u64 {
-    let vertices = (u64::from(rate) + 1).pow(2);
-    GRIDS + DRAWS * 9 * vertices
+/// Number of tiles.
+pub(crate) fn tiles(extent: &Extent) -> u64 {
+    let [columns, rows] = squares(extent, tile_bits(extent));
+    columns * rows
+}
+
+/// Columns and rows of blocks, each sampled by a work-group.
+pub(crate) fn blocks(extent: &Extent) -> [u64; 2] {
+    squares(extent, tile_bits(extent).min(BLOCK_BITS))
+}
+
+const fn tile_bits(extent: &Extent) -> u32 {
+    if extent.tile_bits == 0 { BLOCK_BITS } else { extent.tile_bits }
+}
+
+fn squares(extent: &Extent, bits: u32) -> [u64; 2] {
+    [extent.columns, extent.rows].map(|samples| u64::from(samples).div_ceil(1 << bits))
 }

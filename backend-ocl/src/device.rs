@@ -5,10 +5,11 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use micropoly_core::abi::{LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Layout, Shared};
+use micropoly_core::abi::{LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Layout, Sample, Shared};
 use micropoly_core::backend::Device;
+use micropoly_core::kernel::sort_last::{NOBODY, Turn};
 use micropoly_core::known;
-use micropoly_core::stage::{Items, Stage};
+use micropoly_core::stage::{Extent, Items, Stage};
 use opencl3::command_queue::CommandQueue;
 use opencl3::context::Context;
 use opencl3::device::Device as ClDevice;
@@ -20,8 +21,6 @@ use crate::error::OclError;
 use crate::list::{DeviceInfo, found, info};
 use crate::program::{GROUP, Kind, Which, build};
 
-/// Pixels a side of the tile that a work-group samples; `TILE` in `grids.cl`.
-const TILE: u32 = 16;
 /// Work-groups that deal what one group of LOCAL has: an item an entry of its stack, or a draw.
 const DEAL_ROWS: u64 =
     (if LOCAL_STACK > LOCAL_DRAWS { LOCAL_STACK } else { LOCAL_DRAWS }) as u64 / GROUP as u64;
@@ -64,8 +63,8 @@ pub struct OclDevice {
     info: DeviceInfo,
     /// As [`Which::ALL`].
     kernels: Vec<Kernel>,
-    /// Grids of the fused stage, kept from frame to frame; none before the first.
-    grids: Option<OclBuffer>,
+    /// As [`chunk::own`]; kept from frame to frame, none before the first that needs it.
+    own: [Option<OclBuffer>; 3],
     queue: CommandQueue,
     context: Context,
     allocated: Arc<AtomicU64>,
@@ -92,7 +91,7 @@ impl OclDevice {
         let context = Context::from_device(device).map_err(OclError::driver("opening the device"))?;
         let queue = CommandQueue::create_default(&context, 0).map_err(OclError::driver("making a queue"))?;
         let kernels = build(&context, &info.name, options)?;
-        Ok(Self { info, kernels, grids: None, queue, context, allocated: Arc::default() })
+        Ok(Self { info, kernels, own: [const { None }; 3], queue, context, allocated: Arc::default() })
     }
 
     fn check_answers(&mut self) -> Result<(), OclError> {
@@ -145,34 +144,65 @@ impl OclDevice {
         Ok(())
     }
 
-    /// Runs the fused stage with the grids that were kept, or larger ones.
-    fn draw(&mut self, image: (u32, u32), rate: u32, buffers: &[&OclBuffer]) -> Result<(), OclError> {
-        let (device, limit) = ((&self.context, &self.queue), (self.info.max_allocation, &self.allocated));
-        let grids = chunk::grids(self.grids.take(), device, limit, rate)?;
-        self.draw_chunks(image, buffers, &grids)?;
-        self.grids = Some(grids);
+    /// Runs a stage that draws, chunk by chunk. How many chunks there are only the device knows; the rest does nothing.
+    fn draw(&mut self, extent: &Extent, buffers: &[&OclBuffer]) -> Result<(), OclError> {
+        let &[_, _, _, _, draws, ..] = buffers else {
+            return Err(OclError::Bindings { stage: Stage::Draw.name() });
+        };
+        if extent.columns == 0 || extent.rows == 0 {
+            return Ok(());
+        }
+        self.reserve_own(extent)?;
+        for chunk in 0..draws.entries().div_ceil(chunk::DRAWS) {
+            self.draw_chunk(chunk as u32, extent, buffers)?;
+        }
         Ok(())
     }
 
-    fn draw_chunks(
-        &self,
-        (width, height): (u32, u32),
-        buffers: &[&OclBuffer],
-        grids: &OclBuffer,
-    ) -> Result<(), OclError> {
-        let &[frame, objects, patches, control, draws, samples, colours] = buffers else {
+    /// Makes sure that there are the buffers that a stage that draws has for itself, and that they are large enough.
+    fn reserve_own(&mut self, extent: &Extent) -> Result<(), OclError> {
+        for (kept, own) in self.own.iter_mut().zip(chunk::own(extent)) {
+            if own.2 > kept.as_ref().map_or(0, OclBuffer::entries) {
+                *kept = None; // the smaller one goes first
+                let limit = self.info.max_allocation;
+                let buffer = OclBuffer::new((&self.context, &self.queue), own, limit, &self.allocated)?;
+                if own.1 == Sample::LAYOUT {
+                    buffer.fill(&self.queue, NOBODY, own.2)?; // keys, as they are between two chunks
+                }
+                *kept = Some(buffer);
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_chunk(&self, chunk: u32, extent: &Extent, buffers: &[&OclBuffer]) -> Result<(), OclError> {
+        let (
+            &[frame, objects, patches, control, draws, behind, samples, colours],
+            [Some(grids), lists, keys],
+        ) = (buffers, &self.own)
+        else {
             return Err(OclError::Bindings { stage: Stage::Draw.name() });
         };
-        let tiles = Grid::of_groups(width.div_ceil(TILE).into(), height.div_ceil(TILE).into());
-        // How many chunks there are only the device knows; the rest does nothing.
-        for chunk in 0..draws.entries().div_ceil(chunk::DRAWS) {
-            let blocks = Grid { number: Some(chunk as u32), ..Grid::of_groups(chunk::BLOCKS, 1) };
-            self.enqueue(Which::ArrangeDraw, &[control, draws, grids], blocks)?;
-            let diced = [frame, objects, patches, draws, grids];
-            self.enqueue(Which::Draw, &diced, Grid::of_groups(chunk::DRAWS, 1))?;
-            for kind in [Kind::Near, Kind::General] {
-                self.enqueue(Which::Tiles(kind), &[frame, draws, grids, samples, colours], tiles)?;
+        let each = Grid::of_groups(chunk::DRAWS, 1);
+        self.enqueue(Which::ArrangeDraw, &[control, grids], Grid::of_groups(1, 1).told(chunk))?;
+        self.enqueue(Which::Draw, &[frame, objects, patches, draws, grids], each)?;
+        if let (true, Some(keys)) = (extent.sort_last, keys) {
+            let sampled = [frame, draws, grids, behind, samples, colours, keys];
+            for turn in 0..Turn::ALL.len() as u32 {
+                self.enqueue(Which::SortLast, &sampled, each.told(turn))?;
             }
+            let all = Grid::of_groups(u64::from(extent.columns).div_ceil(GROUP as u64), extent.rows.into());
+            return self.enqueue(Which::MergeKeys, &[frame, samples, keys], all);
+        }
+        let Some(lists) = lists else { return Err(OclError::Bindings { stage: Stage::Draw.name() }) };
+        lists.fill(&self.queue, 0_u32, chunk::tiles(extent))?;
+        self.enqueue(Which::CountTiles, &[frame, grids, lists], Grid::of_items(chunk::DRAWS))?;
+        self.enqueue(Which::ScanTiles, &[frame, lists], Grid::of_groups(1, 1))?;
+        self.enqueue(Which::WriteTiles, &[frame, grids, lists], Grid::of_items(chunk::DRAWS))?;
+        let [columns, rows] = chunk::blocks(extent);
+        for kind in [Kind::Near, Kind::General] {
+            let sampled = [frame, draws, grids, lists, behind, samples, colours];
+            self.enqueue(Which::Tiles(kind), &sampled, Grid::of_groups(columns, rows))?;
         }
         Ok(())
     }
@@ -201,6 +231,8 @@ impl Grid {
     fn of(stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Option<Self> {
         match (stage, items) {
             (Stage::KnownAnswers, Items::Count(count)) => Self::counted(count, &buffers[1..3]),
+            (Stage::Blend, Items::Count(count)) => Self::counted(count, &buffers[..5]),
+            (Stage::Filter, Items::Count(count)) => Self::counted(count, &buffers[4..]),
             (Stage::Take | Stage::Flush | Stage::Balance | Stage::MeshPlaces, _)
             | (Stage::Scan, Items::Taken) => Some(Self::of_groups(1, 1)),
             // How many are taken only the device knows; the rest of the batch does nothing.
@@ -215,7 +247,7 @@ impl Grid {
 
     fn counted(count: u32, buffers: &[&OclBuffer]) -> Option<Self> {
         let fits = buffers.iter().all(|buffer| u64::from(count) <= buffer.entries());
-        fits.then(|| Self { number: Some(count), ..Self::of_items(u64::from(count)) })
+        fits.then(|| Self::of_items(u64::from(count)).told(count))
     }
 
     /// A column of work-groups a group of LOCAL, or a draw; there may be more than devices have room for in a column.
@@ -229,6 +261,10 @@ impl Grid {
 
     fn of_groups(columns: u64, rows: u64) -> Self {
         Self { groups: [columns as usize, rows as usize], number: None }
+    }
+
+    fn told(self, number: u32) -> Self {
+        Self { number: Some(number), ..self }
     }
 }
 
@@ -262,8 +298,8 @@ impl Device for OclDevice {
         self.info.max_allocation
     }
 
-    fn own_bytes(&self, _width: u32, _height: u32, rate: u32) -> u64 {
-        chunk::bytes(rate)
+    fn own_bytes(&self, extent: Extent) -> u64 {
+        chunk::bytes(&extent)
     }
 
     fn write<T: Shared>(&mut self, buffer: &OclBuffer, data: &[T]) -> Result<(), OclError> {
@@ -278,10 +314,14 @@ impl Device for OclDevice {
         to.copy(&self.queue, from, entries)
     }
 
+    fn clear(&mut self, buffer: &OclBuffer) -> Result<(), OclError> {
+        buffer.fill(&self.queue, 0_u32, buffer.entries())
+    }
+
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Result<(), OclError> {
         check_bindings(stage, buffers)?;
-        if let (Stage::Draw, Items::Image { width, height, rate }) = (stage, items) {
-            self.draw((width, height), rate, buffers)?;
+        if let (Stage::Draw | Stage::SortLast, Items::Image(extent)) = (stage, items) {
+            self.draw(&Extent { sort_last: stage == Stage::SortLast, ..extent }, buffers)?;
         } else {
             let grid = Grid::of(stage, items, buffers).ok_or(OclError::Bindings { stage: stage.name() })?;
             self.enqueue(Which::Stage(stage), buffers, grid)?;

@@ -22,21 +22,31 @@ macro_rules! files {
 files! {
     "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "border.cl" "net.cl" "gregory.cl" "owner.cl" "project.cl"
     "weber.cl" "take.cl" "sides.cl" "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "displace.cl" "shade.cl"
-    "triangle.cl" "clip.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "tiles.cl" "mesh.cl"
-    "flush.cl" "scan.cl" "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
+    "triangle.cl" "clip.cl" "blend.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "sort_middle.cl"
+    "tiles.cl" "sort_last.cl" "filter.cl" "mesh.cl" "flush.cl" "scan.cl" "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
 }
 
-/// The kernels: one a stage, and those into which the fused stage is cut.
+/// The kernels: one a stage, and those into which the stages that draw are cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
-    /// A stage other than the fused one.
+    /// A stage other than those that draw.
     Stage(Stage),
     /// The next chunk of draws.
     ArrangeDraw,
     /// Dices and shades a chunk.
     Draw,
+    /// Counts the draws of a chunk that can touch each tile.
+    CountTiles,
+    /// Places of the tiles' lists.
+    ScanTiles,
+    /// Draws to the lists of their tiles.
+    WriteTiles,
     /// Samples a chunk tile by tile.
     Tiles(Kind),
+    /// A turn of sort-last over a chunk.
+    SortLast,
+    /// What sort-last found in a chunk becomes samples.
+    MergeKeys,
 }
 
 /// A kind of grids.
@@ -67,7 +77,7 @@ const fn write<T: Shared>(name: &'static str) -> Argument {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 22] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::Stage(Stage::Scan),
@@ -75,14 +85,21 @@ impl Which {
         Self::Stage(Stage::Local),
         Self::Stage(Stage::Balance),
         Self::Stage(Stage::Deal),
+        Self::Stage(Stage::Blend),
+        Self::Stage(Stage::Filter),
         Self::Stage(Stage::MeshPlaces),
         Self::Stage(Stage::Mesh),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::ArrangeDraw,
         Self::Draw,
+        Self::CountTiles,
+        Self::ScanTiles,
+        Self::WriteTiles,
         Self::Tiles(Kind::Near),
         Self::Tiles(Kind::General),
+        Self::SortLast,
+        Self::MergeKeys,
     ];
 
     /// Its place in [`Which::ALL`].
@@ -101,14 +118,21 @@ impl Which {
             Self::Stage(Stage::Local) => "stage_local",
             Self::Stage(Stage::Balance) => "stage_balance",
             Self::Stage(Stage::Deal) => "stage_deal",
+            Self::Stage(Stage::Blend) => "stage_blend",
+            Self::Stage(Stage::Filter) => "stage_filter",
             Self::Stage(Stage::MeshPlaces) => "stage_mesh_places",
             Self::Stage(Stage::Mesh) => "stage_mesh",
             Self::Stage(Stage::Flush) => "stage_flush",
             Self::Stage(Stage::KnownAnswers) => "stage_known_answers",
             Self::ArrangeDraw => "arrange_draw",
             Self::Stage(Stage::Draw) | Self::Draw => "stage_draw",
+            Self::CountTiles => "count_tiles",
+            Self::ScanTiles => "scan_tiles",
+            Self::WriteTiles => "write_tiles",
             Self::Tiles(Kind::Near) => "tiles_near",
             Self::Tiles(Kind::General) => "tiles_general",
+            Self::Stage(Stage::SortLast) | Self::SortLast => "stage_sort_last",
+            Self::MergeKeys => "merge_keys",
         }
     }
 
@@ -118,15 +142,13 @@ impl Which {
         match self {
             Self::Stage(stage) => {
                 let buffer = |b: &Binding| Argument::Buffer(b.name, b.layout, b.access);
-                let count = (stage == Stage::KnownAnswers).then_some(Argument::Number("count"));
+                let is_counted = matches!(stage, Stage::Blend | Stage::Filter | Stage::KnownAnswers);
+                let count = is_counted.then_some(Argument::Number("count"));
                 stage.bindings().iter().map(buffer).chain(count).collect()
             }
-            Self::ArrangeDraw => vec![
-                read::<Control>("control"),
-                read::<Draw>("draws"),
-                write::<u32>("grids"),
-                Argument::Number("chunk"),
-            ],
+            Self::ArrangeDraw => {
+                vec![read::<Control>("control"), write::<u32>("grids"), Argument::Number("chunk")]
+            }
             Self::Draw => vec![
                 read::<Frame>("frame"),
                 read::<Object>("objects"),
@@ -134,13 +156,32 @@ impl Which {
                 read::<Draw>("draws"),
                 write::<u32>("grids"),
             ],
+            Self::CountTiles | Self::WriteTiles => {
+                vec![read::<Frame>("frame"), read::<u32>("grids"), write::<u32>("lists")]
+            }
+            Self::ScanTiles => vec![read::<Frame>("frame"), write::<u32>("lists")],
             Self::Tiles(_) => vec![
                 read::<Frame>("frame"),
                 read::<Draw>("draws"),
                 read::<u32>("grids"),
+                read::<u32>("lists"),
+                read::<Sample>("behind"),
                 write::<Sample>("samples"),
                 write::<Colour>("colours"),
             ],
+            Self::SortLast => vec![
+                read::<Frame>("frame"),
+                read::<Draw>("draws"),
+                read::<u32>("grids"),
+                read::<Sample>("behind"),
+                read::<Sample>("samples"),
+                write::<Colour>("colours"),
+                write::<Sample>("keys"),
+                Argument::Number("turn"),
+            ],
+            Self::MergeKeys => {
+                vec![read::<Frame>("frame"), write::<Sample>("samples"), write::<Sample>("keys")]
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use micropoly_backend_ocl::{Argument, FILES, OclDevice, OpenOptions, Which, devices};
 use micropoly_conformance::mirrors::{assert_mirrors, first_word};
-use micropoly_core::abi::{Frame, LAYOUTS, Question, Shared};
+use micropoly_core::abi::{Frame, LAYOUTS, Question, Sample, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::stage::{Access, Items, Stage};
 use opencl3::context::Context;
@@ -119,10 +119,11 @@ fn arguments_are_the_bindings() {
     }
 }
 
-/// The kernels into which the fused stage is cut take its bindings, all of them, and write none but those that
-/// it writes; all that they have besides is their grids and the number of a chunk.
+/// The kernels into which the stages that draw are cut take their bindings, all of them, and write none but those that
+/// they write; all that they have besides is their own buffers and the number of a chunk or a turn.
 #[test]
-fn the_fused_stage_is_cut_along_its_bindings() {
+fn stages_that_draw_are_cut_along_their_bindings() {
+    assert_eq!(Stage::Draw.bindings(), Stage::SortLast.bindings());
     let bindings: Vec<_> =
         Stage::Draw.bindings().iter().map(|b| Argument::Buffer(b.name, b.layout, b.access)).collect();
     let parts = Which::ALL.iter().filter(|which| !matches!(which, Which::Stage(_)));
@@ -133,8 +134,14 @@ fn the_fused_stage_is_cut_along_its_bindings() {
     arguments.retain(|argument| !bindings.contains(argument));
     for argument in arguments {
         let own = match argument {
-            Argument::Buffer(name, layout, _) => name == "grids" && layout == u32::LAYOUT,
-            Argument::Number(name) => name == "chunk",
+            Argument::Buffer("grids" | "lists", layout, _) => layout == u32::LAYOUT,
+            Argument::Buffer("keys", layout, _) => layout == Sample::LAYOUT,
+            // What is written may also be read.
+            Argument::Buffer(name, layout, Access::Read) => {
+                bindings.contains(&Argument::Buffer(name, layout, Access::Write))
+            }
+            Argument::Buffer(..) => false,
+            Argument::Number(name) => name == "chunk" || name == "turn",
         };
         assert!(own, "{argument:?}");
     }

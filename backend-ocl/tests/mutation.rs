@@ -143,7 +143,9 @@ const ALLOWED: &[Allowed] = &[
 /// The stages that a file is a part of; all are built together, so nothing else knows.
 fn stages(file: &str) -> Vec<Stage> {
     match file {
-        "num.cl" => vec![Stage::KnownAnswers, Stage::Bound, Stage::Draw, Stage::Mesh],
+        "num.cl" => {
+            vec![Stage::KnownAnswers, Stage::Blend, Stage::Filter, Stage::Bound, Stage::Draw, Stage::Mesh]
+        }
         "surface.cl" | "border.cl" => vec![Stage::Split, Stage::Bound, Stage::Draw, Stage::Mesh],
         "counts.cl" => {
             vec![Stage::Take, Stage::Scan, Stage::Balance, Stage::Deal, Stage::Local, Stage::MeshPlaces]
@@ -152,9 +154,10 @@ fn stages(file: &str) -> Vec<Stage> {
         "scan.cl" => vec![Stage::Scan, Stage::Local, Stage::MeshPlaces],
         "bezier.cl" | "net.cl" | "gregory.cl" => vec![Stage::Bound, Stage::Draw, Stage::Mesh],
         "project.cl" => vec![Stage::Bound, Stage::Draw],
-        "owner.cl" | "dice.cl" | "dice_gregory.cl" | "displace.cl" | "sample.cl" => {
-            vec![Stage::Draw, Stage::Mesh]
-        }
+        "owner.cl" | "dice.cl" | "dice_gregory.cl" | "displace.cl" => vec![Stage::Draw, Stage::Mesh],
+        "blend.cl" => vec![Stage::Blend, Stage::Draw],
+        "sample.cl" => vec![Stage::Draw, Stage::SortLast, Stage::Filter, Stage::Mesh],
+        "general.cl" | "grids.cl" => vec![Stage::Draw, Stage::SortLast],
         "weber.cl" | "sides.cl" => vec![Stage::Bound],
         _ => {
             let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));

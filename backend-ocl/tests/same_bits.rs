@@ -2,17 +2,17 @@
 //!
 //! Runs on every OpenCL device there is; without one it fails, since nothing would be tested.
 
-use micropoly::{Borders, FrameOptions, Profile, Scene};
+use micropoly::{Borders, FrameOptions, Profile, Rasteriser, Samples, Scene, Shading};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
 use micropoly_conformance::report::check_stage;
 use micropoly_conformance::{Case, Schedule, run, run_scheduled};
-use micropoly_core::abi::{MeshVertex, Shared};
+use micropoly_core::abi::{Control, FLAG_LAYERS, MeshVertex, Shared};
 use micropoly_core::backend::Device;
 use micropoly_core::known;
 use micropoly_core::memory::stack_min;
 use micropoly_core::schedule::Scheduler;
-use micropoly_core::stage::Stage;
+use micropoly_core::stage::{Extent, Items, Stage};
 
 /// Everything that an OpenCL compiler may be told to break.
 const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
@@ -28,7 +28,13 @@ const SMALL: FrameOptions = FrameOptions {
     cull_backfaces: false,
     whole: false,
     profile: Profile::Conservative,
+    samples: Samples::One,
+    shading: Shading::Flat,
+    rasteriser: Rasteriser::SortMiddle,
+    tile: 0,
 };
+/// The same image, sort-last.
+const LAST: FrameOptions = FrameOptions { rasteriser: Rasteriser::SortLast, ..SMALL };
 
 fn case(scene: &str, options: &FrameOptions) -> Case {
     let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -175,30 +181,109 @@ fn the_room_of_a_tile_changes_no_bits() {
     }
 }
 
+/// Where there is no room for the lists of all tiles each tile looks at all draws.
 #[test]
-fn more_draws_than_a_chunk_have_the_bits_of_the_cpu() {
-    let options = FrameOptions { bound: 2.0, rate: 2, ..SMALL };
-    let case = case("teapot", &options);
-    let drawn = run(&mut CpuDevice::new(1).expect("threads"), &case, 4096).expect("renders").drawn;
-    assert!(drawn > 4 * 2048, "{drawn} drawn");
-    compare(&case, &[300, 4096], &OpenOptions::default());
+fn the_room_of_the_lists_changes_no_bits() {
+    let edit = |name: &str, source: &str| match name {
+        "sort_middle.cl" => {
+            let edited = source.replace("LIST_ROOM 1048576u", "LIST_ROOM 100u");
+            assert_eq!(edited.len(), source.len() - 4, "it is edited");
+            edited
+        }
+        _ => source.to_owned(),
+    };
+    let options = OpenOptions { edit: Some(&edit), ..OpenOptions::default() };
+    for scene in ["teapot", "eyesplit"] {
+        compare(&case(scene, &SMALL), &[4096], &options);
+    }
 }
 
 #[test]
-fn grids_are_counted_and_kept() {
-    for index in 0..device_count() {
+fn tiles_of_any_size_have_the_bits_of_the_cpu() {
+    for tile in [4, 8, 16, 32] {
+        compare(&case("still-life", &FrameOptions { tile, ..SMALL }), &[4096], &OpenOptions::default());
+    }
+}
+
+#[test]
+fn many_samples_a_pixel_have_the_bits_of_the_cpu() {
+    let shading = Shading::Smooth;
+    for samples in [Samples::Four, Samples::SixtyFour] {
+        let options = FrameOptions { width: 160, height: 90, samples, shading, ..SMALL };
+        for scene in ["teapot", "eyesplit"] {
+            compare(&case(scene, &options), &[4096], &OpenOptions::default());
+        }
+    }
+}
+
+#[test]
+fn sort_last_has_the_bits_of_the_cpu() {
+    for scene in SCENES {
+        compare(&case(scene, &LAST), &[500, 4096], &OpenOptions::default());
+    }
+    let many = FrameOptions { samples: Samples::Sixteen, shading: Shading::Smooth, ..LAST };
+    compare(&case("eyesplit", &many), &[4096], &OpenOptions::default());
+}
+
+/// What can be seen through is found layer by layer.
+fn see_through(scene: &str, options: &FrameOptions) -> Case {
+    let mut case = case(scene, options);
+    for object in &mut case.objects {
+        object.opacity = 0.5;
+    }
+    case.frame.flags |= FLAG_LAYERS;
+    case
+}
+
+#[test]
+fn layers_have_the_bits_of_the_cpu() {
+    for options in [SMALL, FrameOptions { shading: Shading::Smooth, ..LAST }] {
+        compare(&see_through("teapot", &options), &[4096], &OpenOptions::default());
+    }
+}
+
+#[test]
+fn more_draws_than_a_chunk_have_the_bits_of_the_cpu() {
+    for options in [SMALL, LAST] {
+        let case = case("teapot", &FrameOptions { bound: 2.0, rate: 2, ..options });
+        let drawn = run(&mut CpuDevice::new(1).expect("threads"), &case, 4096).expect("renders").drawn;
+        assert!(drawn > 4 * 2048, "{drawn} drawn");
+        compare(&case, &[300, 4096], &OpenOptions::default());
+    }
+}
+
+/// All that a device has for itself is counted, and kept for the next frame.
+#[test]
+fn own_buffers_are_counted_and_kept() {
+    for (index, options) in (0..device_count()).flat_map(|index| [(index, SMALL), (index, LAST)]) {
         let mut device =
             OclDevice::open(index, &OpenOptions::default()).unwrap_or_else(|error| panic!("{error}"));
         let mut kept_after = |rate| {
-            let case = case("teapot", &FrameOptions { rate, ..SMALL });
+            let case = case("teapot", &FrameOptions { rate, ..options });
             run(&mut device, &case, 4096).unwrap_or_else(|error| panic!("{error}"));
-            device.bytes_allocated()
+            (device.bytes_allocated(), device.own_bytes(Extent::of(&case.frame, case.frame.sample_count())))
         };
         let at_8 = kept_after(8);
-        assert_eq!(kept_after(2), at_8);
+        assert_eq!(kept_after(2).0, at_8.0);
         let at_16 = kept_after(16);
-        assert_eq!([8, 16].map(|rate| device.own_bytes(SMALL.width, SMALL.height, rate)), [at_8, at_16]);
-        assert!(at_16 > at_8 && at_8 > 2048 * 9 * 81 * 4, "{at_8}, {at_16}");
+        assert_eq!((at_8.0, at_16.0), (at_8.1, at_16.1));
+        assert!(at_16 > at_8 && at_8.0 > 2048 * 9 * 81 * 4, "{at_8:?}, {at_16:?}");
+    }
+}
+
+#[test]
+fn a_buffer_is_cleared_after_all_stages() {
+    for index in 0..device_count() {
+        let mut device =
+            OclDevice::open(index, &OpenOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+        let buffer = device.allocate("control", Control::LAYOUT, 1).expect("memory");
+        let some = Control { stack: 3, overflow: 7, waiting: 5, ..Control::default() };
+        device.write(&buffer, &[some]).expect("writes");
+        device.dispatch(Stage::Flush, Items::Count(1), &[&buffer]).expect("runs");
+        device.clear(&buffer).expect("clears");
+        let mut after = [some];
+        device.read(&buffer, 0, &mut after).expect("reads");
+        assert_eq!(after, [Control::default()]);
     }
 }
 
@@ -219,6 +304,7 @@ fn a_hostile_compiler_changes_no_bits_behind_the_barrier() {
     for scene in SCENES {
         compare(&case(scene, &SMALL), &[4096], &options);
     }
+    compare(&see_through("gregory", &LAST), &[4096], &options);
 }
 
 /// Bits of all vertices, and all indices.

@@ -17,8 +17,8 @@ static Verdict new_verdict(uint code, PixelBox pixels) {
     return verdict;
 }
 
-static PixelBox whole_image(__constant Frame *frame) {
-    return (PixelBox)(0, (int)frame->width, 0, (int)frame->height);
+static PixelBox whole_window(__constant Frame *frame) {
+    return (PixelBox)((int)frame->left, (int)frame->right, (int)frame->top, (int)frame->bottom);
 }
 
 // The patch's own points, and what rounding and displacement can do.
@@ -148,18 +148,18 @@ static Seen with_strays(Seen seen, Strays strays) {
     return seen;
 }
 
-static int2 pixel_range(uint zero, Reach reach, float centre, uint size, float margin) {
-    const float end = number((int)size);
+static int2 pixel_range(uint zero, Reach reach, float centre, uint2 limits, float margin) {
+    const float first = number((int)limits.x), end = number((int)limits.y);
     const float low = sub(add(reach.low, centre), margin);
     const float high = add(add(reach.high, centre), add(margin, 1.0f));
-    return (int2)(floor(clamp(low, 0.0f, end)), floor(clamp(high, 0.0f, end)));
+    return (int2)(floor(clamp(low, first, end)), floor(clamp(high, first, end)));
 }
 
 // The pixels that drawing what is seen can touch.
 static PixelBox box_around(__constant Frame *frame, Seen seen) {
-    const int2 columns = pixel_range(frame->zero, seen.x, frame->centre_x, frame->width, seen.margin);
-    const int2 rows = pixel_range(frame->zero, seen.y, frame->centre_y, frame->height, seen.margin);
-    return (PixelBox)(columns, rows);
+    const uint2 columns = (uint2)(frame->left, frame->right), rows = (uint2)(frame->top, frame->bottom);
+    return (PixelBox)(pixel_range(frame->zero, seen.x, frame->centre_x, columns, seen.margin),
+                      pixel_range(frame->zero, seen.y, frame->centre_y, rows, seen.margin));
 }
 
 static bool is_empty(PixelBox box) {
@@ -257,7 +257,7 @@ static Verdict judge_seen(__constant Frame *frame, Hull *hull, Surface surface, 
     const float nearest = nearest_of(zero, hull), farthest = farthest_of(zero, hull);
     Net points;
     Lengths lengths;
-    PixelBox pixels = whole_image(frame);
+    PixelBox pixels = whole_window(frame);
     measured(frame, hull->near, &hull->part, &points);
     if (!crosses && !(strays.are_some && min(nearest, strays.nearest) < frame->near)) {
         pixels = box_around(frame, with_strays(seen_of(frame, hull, nearest, &points), strays));
@@ -285,7 +285,7 @@ static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
         Lengths lengths;
         measured(frame, hull->near, &hull->part, &points);
         lengths_of(frame, hull, surface, &points, &lengths);
-        return by_length(frame, surface, &lengths, whole_image(frame));
+        return by_length(frame, surface, &lengths, whole_window(frame));
     }
     const float nearest = nearest_of(zero, hull), farthest = farthest_of(zero, hull);
     const Strays strays = strays_of(frame, hull, surface);
@@ -305,7 +305,7 @@ static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
 static PixelBox pixels_of(__constant Frame *frame, const Hull *hull) {
     const float nearest = nearest_of(frame->zero, hull);
     if (nearest < frame->near || (frame->flags & FLAG_WHOLE) != 0u) {
-        return whole_image(frame);
+        return whole_window(frame);
     }
     Net points;
     measured(frame, frame->near, &hull->part, &points);

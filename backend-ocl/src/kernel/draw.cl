@@ -1,9 +1,10 @@
-// Mirrors the first half of core's fused stage, dice and shade: one work-group a draw of the chunk.
+// Mirrors the first half of core's fused stages, dice and shade: one work-group a draw of the chunk.
 //
 // Barriers are reached by all work-items alike.
 
-// A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `triangle.cl`.
-#define NARROW 16000
+// A grid this wide or less, in 1/256 pixels, can be sampled in 32 bits: see `triangle.cl`. A sample that is looked at
+// lies less than a column of samples beside the grid, and that is 8 pixels at most.
+#define NARROW (16384 - 8 * SUBPIXELS)
 
 // What is found out about all vertices of a grid.
 typedef struct {
@@ -80,22 +81,26 @@ static uint kind_of(__constant Frame *frame, __local const Measures *measures) {
     return narrow && measures->must_clip == 0u ? KIND_NEAR : KIND_GENERAL;
 }
 
-// The pixels between the first and the last that the box around the vertices covers, of `count`, packed.
-static uint packed(int low, int high, uint count) {
-    const int2 pixels = pixels_between(low, high);
-    return (uint)greater(0, lesser(pixels.x, count)) | (uint)greater(0, lesser(pixels.y, count)) << 16;
+// The box around a draw, snapped: of what must be clipped, the pixels that it was bounded by.
+static Extents extents_of(Draw draw, __local const Measures *measures) {
+    const Extents bounded = {(int)(draw.columns & 0xffffu) * SUBPIXELS, (int)(draw.columns >> 16) * SUBPIXELS - 1,
+                             (int)(draw.rows & 0xffffu) * SUBPIXELS, (int)(draw.rows >> 16) * SUBPIXELS - 1};
+    return measures->must_clip == 0u ? measures->extents : bounded;
 }
 
-// What a grid that is whole can touch is known better now than when it was bounded.
-static void put_flags(__constant Frame *frame, Draw draw, __local const Measures *measures,
-                      __global uint *grids, uint index) {
-    const uint found = kind_of(frame, measures);
-    const Extents extents = measures->extents;
-    const bool is_near = found == KIND_NEAR;
-    const uint place = flags_place(index);
+// The frame's samples that can lie in a box.
+static int4 samples_in(__constant Frame *frame, Extents extents) {
+    const int2 columns = samples_between(frame, extents.low_x, extents.high_x);
+    const int2 rows = samples_between(frame, extents.low_y, extents.high_y);
+    return common(frame_box(frame), (int4)(columns, rows));
+}
+
+static void put_flags(__constant Frame *frame, __global const Object *object, Draw draw,
+                      __local const Measures *measures, __global uint *grids, uint index) {
+    const uint found = kind_of(frame, measures), place = flags_place(index);
     grids[place] = found | draw.shape >> RATE_U_SHIFT << RATES_SHIFT;
-    grids[place + 1u] = is_near ? packed(extents.low_x, extents.high_x, frame->width) : draw.columns;
-    grids[place + 2u] = is_near ? packed(extents.low_y, extents.high_y, frame->height) : draw.rows;
+    put_box(grids, index, samples_in(frame, extents_of(draw, measures)));
+    grids[place + OPACITY] = as_uint(object->opacity);
     if (found != KIND_HIDDEN) {
         grids[HEAD_KINDS + found - 1u] = 1u; // whoever writes, it is the same
     }
@@ -126,6 +131,6 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     seek_faces(frame, draw, &measures, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     if (lane == 0u) {
-        put_flags(frame, draw, &measures, grids, index);
+        put_flags(frame, object, draw, &measures, grids, index);
     }
 }

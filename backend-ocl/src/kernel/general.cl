@@ -1,12 +1,12 @@
 // Mirrors `micropolygon`, `clipped` and `triangle` of core/src/kernel/sample.rs: any grid whatever.
 
 // One quad, as the triangles a b c and a c d.
-static void micropolygon(Sampler *s, Vertex a, Vertex b, Vertex c, Vertex d, uint key) {
-    const uint zero = s->frame->zero;
-    const int4 pixels = pixels_of_quad(s->box, a, b, c, d);
-    for (int y = pixels.z; y < pixels.w; y++) {
-        for (int x = pixels.x; x < pixels.y; x++) {
-            const float w = max(sample_triangle(zero, a, b, c, x, y), sample_triangle(zero, a, c, d, x, y));
+static void micropolygon(Sampler *s, Corners quad, uint key) {
+    const int4 samples = samples_of_quad(s, quad);
+    for (int y = samples.z; y < samples.w; y++) {
+        for (int x = samples.x; x < samples.y; x++) {
+            bool second;
+            const float w = sample_quad(s->frame->zero, quad, site(s->frame, x, y), &second).w;
             if (w > 0.0f) {
                 put(s, x, y, w, key);
             }
@@ -15,10 +15,11 @@ static void micropolygon(Sampler *s, Vertex a, Vertex b, Vertex c, Vertex d, uin
 }
 
 static void triangle(Sampler *s, Vertex a, Vertex b, Vertex c, uint key) {
-    const int4 pixels = pixels_of_quad(s->box, a, b, c, c);
-    for (int y = pixels.z; y < pixels.w; y++) {
-        for (int x = pixels.x; x < pixels.y; x++) {
-            const float w = sample_triangle(s->frame->zero, a, b, c, x, y);
+    const Corners all = {a, b, c, c};
+    const int4 samples = samples_of_quad(s, all);
+    for (int y = samples.z; y < samples.w; y++) {
+        for (int x = samples.x; x < samples.y; x++) {
+            const float w = sample_triangle(s->frame->zero, a, b, c, site(s->frame, x, y)).w;
             if (w > 0.0f) {
                 put(s, x, y, w, key);
             }
@@ -37,17 +38,28 @@ static void clipped(Sampler *s, float3 a, float3 b, float3 c, uint key) {
     }
 }
 
-static void sample_general(Sampler *s, uint base, Quad quad, uint key) {
-    const Vertex a = vertex_at(s->frame, s->grids, base, quad.a);
-    const Vertex b = vertex_at(s->frame, s->grids, base, quad.b);
-    const Vertex c = vertex_at(s->frame, s->grids, base, quad.c);
-    const Vertex d = vertex_at(s->frame, s->grids, base, quad.d);
-    if (a.w > 0.0f && b.w > 0.0f && c.w > 0.0f && d.w > 0.0f) {
-        micropolygon(s, a, b, c, d, key);
+static void sample_general(Sampler *s, uint base, Quad quad, Corners corners, uint key) {
+    if (is_whole(corners)) {
+        micropolygon(s, corners, key);
+        return;
+    }
+    const float3 from_a = space_at(s->frame, s->grids, base, quad.a, 0u);
+    const float3 to_c = space_at(s->frame, s->grids, base, quad.c, 0u);
+    clipped(s, from_a, space_at(s->frame, s->grids, base, quad.b, 0u), to_c, key);
+    clipped(s, from_a, to_c, space_at(s->frame, s->grids, base, quad.d, 0u), key);
+}
+
+// Micropolygon `number` of draw `index` of the chunk, by the way that suits its grid.
+static void sample_one(Sampler *s, uint kind, uint index, uint number, uint slot) {
+    const uint base = grid_base(s->frame, index);
+    const uint rate = rates_in(s->grids[flags_place(index)]).x;
+    const Place place = new_place(number % rate, number / rate);
+    const Quad quad = quad_of(rate, place);
+    const Corners corners = corners_at(s, base, quad);
+    const uint key = slot << CELL_BITS | cell_of(place);
+    if (kind == KIND_NEAR) {
+        sample_near(s, corners, key);
     } else {
-        const float3 from_a = space_at(s->frame, s->grids, base, quad.a, 0u);
-        const float3 to_c = space_at(s->frame, s->grids, base, quad.c, 0u);
-        clipped(s, from_a, space_at(s->frame, s->grids, base, quad.b, 0u), to_c, key);
-        clipped(s, from_a, to_c, space_at(s->frame, s->grids, base, quad.d, 0u), key);
+        sample_general(s, base, quad, corners, key);
     }
 }

@@ -1,15 +1,12 @@
 // No mirror in core: where a chunk of draws lies between its kernels, the one that dices and shades each draw
-// once (`draw.cl`) and those that sample them tile by tile (`tiles.cl`).
+// once (`draw.cl`) and those that sample them, tile by tile (`tiles.cl`) or one by one (`sort_last.cl`).
 //
-// One buffer of words: the head, a box for every BLOCK of draws, the flags and the box of every draw, then a grid
-// a draw, each with room for the largest. A grid is column, row and 1 / distance of its vertices, row after row, then
-// position and colour, a coordinate after the other. A box is the pixels that can be touched, columns and rows,
-// packed as those of a draw.
+// One buffer of words: the head, what is known of every draw, then a grid a draw, each with room for the largest. A
+// grid is column, row and 1 / distance of its vertices, row after row, then position and colour, a coordinate after the
+// other.
 
-// Draws a chunk, and draws that share a box.
+// Draws a chunk.
 #define CHUNK 2048u
-#define BLOCK GROUP
-#define BLOCKS (CHUNK / BLOCK)
 
 // The head: first draw of the chunk and number of its draws; then, is there any grid of kind 1, of kind 2?
 #define HEAD_START 0u
@@ -24,14 +21,27 @@
 // Above them, micropolygons along u and along v, as in the shape of a draw.
 #define RATES_SHIFT 2u
 
-#define BOXES 4u
-#define FLAGS (BOXES + 2u * BLOCKS)
-// Words a draw from there on: flags, columns, rows.
-#define FLAGS_WORDS 3u
+#define FLAGS 4u
+// Words a draw from there on: flags; left, right, top and bottom of the samples that it can touch; opacity.
+#define FLAGS_WORDS 6u
+#define BOX 1u
+#define OPACITY 5u
 #define GRIDS (FLAGS + FLAGS_WORDS * CHUNK)
 
-// Pixels a side of the tile that one group samples.
-#define TILE 16u
+// Columns (and rows) of samples that one group samples, at most.
+#define BLOCK_BITS 4u
+#define BLOCK (1u << BLOCK_BITS)
+
+// All of the frame's samples: left, right, top and bottom.
+static int4 frame_box(__constant Frame *frame) {
+    return (int4)((int)frame->sample_left, (int)frame->sample_right, (int)frame->sample_top,
+                  (int)frame->sample_bottom);
+}
+
+// What two boxes have in common.
+static int4 common(int4 a, int4 b) {
+    return (int4)(greater(a.x, b.x), lesser(a.y, b.y), greater(a.z, b.z), lesser(a.w, b.w));
+}
 
 // Vertices of the largest grid.
 static uint vertices(__constant Frame *frame) {
@@ -44,9 +54,23 @@ static uint2 rates_in(uint flags) {
                    (flags >> (RATES_SHIFT + RATE_V_SHIFT - RATE_U_SHIFT)) & FIVE_BITS);
 }
 
-// Place of the flags of draw `index` of the chunk; its box follows.
+// Place of the flags of draw `index` of the chunk.
 static uint flags_place(uint index) {
     return FLAGS + FLAGS_WORDS * index;
+}
+
+// The samples that a draw can touch: left, right, top and bottom.
+static int4 box_at(__global const uint *grids, uint index) {
+    __global const uint *box = grids + flags_place(index) + BOX;
+    return (int4)((int)box[0], (int)box[1], (int)box[2], (int)box[3]);
+}
+
+static void put_box(__global uint *grids, uint index, int4 samples) {
+    __global uint *box = grids + flags_place(index) + BOX;
+    box[0] = (uint)samples.x;
+    box[1] = (uint)samples.y;
+    box[2] = (uint)samples.z;
+    box[3] = (uint)samples.w;
 }
 
 // First word of the grid of draw `index` of the chunk.

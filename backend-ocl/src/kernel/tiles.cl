@@ -1,48 +1,40 @@
-// Mirrors the second half of core's fused stage, sample: one work-group a tile of the image, over all draws of
-// the chunk that can touch it and are of the kernel's kind, up to LISTED at a time.
+// Mirrors the second half of core's fused stage, sample: one work-group a block of samples, over all draws in the list of
+// its tile that can touch it and are of the kernel's kind, up to LISTED at a time.
 //
 // Barriers are reached by all work-items alike.
 
-// The tile of this work-group, cut off at the image's border.
-static int4 tile_box(__constant Frame *frame) {
-    const int left = get_group_id(0) * TILE, top = get_group_id(1) * TILE;
-    return (int4)(left, lesser(left + (int)TILE, frame->width), top, lesser(top + (int)TILE, frame->height));
+// The block of this work-group, cut off where the samples end: a tile, or a part of one.
+static int4 own_box(__constant Frame *frame) {
+    const int side = 1 << lesser_of(tile_bits(frame), BLOCK_BITS);
+    const int4 all = frame_box(frame);
+    const int left = all.x + (int)get_group_id(0) * side, top = all.z + (int)get_group_id(1) * side;
+    return common(all, (int4)(left, left + side, top, top + side));
 }
 
-static bool touches(int4 box, uint columns, uint rows) {
-    return (int)(columns & 0xffffu) < box.y && (int)(columns >> 16) > box.x && (int)(rows & 0xffffu) < box.w
-        && (int)(rows >> 16) > box.z;
-}
-
-// Lists the blocks that can touch the tile.
-static void list_blocks(const Sampler *s, uint lane) {
-    for (uint block = lane; block < BLOCKS; block += GROUP) {
-        if (touches(s->box, s->grids[BOXES + 2u * block], s->grids[BOXES + 2u * block + 1u])) {
-            s->tile->blocks[atomic_inc(&s->tile->blocks_listed)] = block;
+// Lists the draws that can touch the block and are of this kind.
+static void list_draws(const Sampler *s, uint kind, __global const uint *lists, uint lane) {
+    const uint2 counts = tile_counts(s->frame);
+    const int4 own = tiles_of(s->frame, s->box);
+    const uint tile = (uint)own.z * counts.x + (uint)own.x, end = counts.x * counts.y;
+    const bool is_listed = lists[end] != UNLISTED;
+    const uint to = is_listed ? lists[tile + 1u] : s->grids[HEAD_COUNT];
+    for (uint entry = (is_listed ? lists[tile] : 0u) + lane; entry < to; entry += GROUP) {
+        const uint index = is_listed ? lists[end + 1u + entry] : entry;
+        const bool is_touched = !is_empty(common(s->box, box_at(s->grids, index)));
+        if ((s->grids[flags_place(index)] & KIND_MASK) == kind && is_touched) {
+            s->block->list[atomic_inc(&s->block->listed)] = index;
         }
     }
 }
 
-// Lists the draws of those blocks that can touch it and are of this kind.
-static void list_draws(const Sampler *s, uint kind, uint lane) {
-    const uint count = s->grids[HEAD_COUNT];
-    for (uint place = 0u; place < s->tile->blocks_listed; place++) {
-        const uint index = s->tile->blocks[place] * BLOCK + lane;
-        __global const uint *flags = s->grids + flags_place(index);
-        if (index < count && (flags[0] & KIND_MASK) == kind && touches(s->box, flags[1], flags[2])) {
-            s->tile->list[atomic_inc(&s->tile->listed)] = index;
-        }
-    }
-}
-
-// What the tile's pixels show already.
-static void recall(const Sampler *s, __global const Sample *samples, uint lane) {
-    for (uint pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
-        const int column = s->box.x + (int)(pixel % TILE), row = s->box.z + (int)(pixel / TILE);
+// What is known of the block's samples already.
+static void recall(const Sampler *s, uint lane) {
+    for (uint at = lane; at < BLOCK_SAMPLES; at += GROUP) {
+        const int column = s->box.x + (int)(at % BLOCK), row = s->box.z + (int)(at / BLOCK);
         const bool is_one = column < s->box.y && row < s->box.w;
-        s->tile->depth[pixel] = is_one ? samples[(uint)row * s->frame->width + (uint)column].depth : 0u;
-        s->tile->patch_u[pixel] = NOBODY;
-        s->tile->v_draw[pixel] = NOBODY;
+        s->block->depth[at] = is_one ? s->samples[place_of_sample(s->frame, column, row)].depth : 0u;
+        s->block->patch_u[at] = NOBODY;
+        s->block->v_draw[at] = NOBODY;
     }
 }
 
@@ -54,144 +46,127 @@ static uint micropolygons(const Sampler *s, uint index) {
 
 // Ranks `count` listed draws, from number `first` of the list on, and numbers their micropolygons.
 static void give_ranks(const Sampler *s, uint count, uint lane) {
-    __local Tile *tile = s->tile;
+    __local Block *block = s->block;
     for (uint slot = lane; slot < count; slot += GROUP) {
-        const uint index = tile->list[s->first + slot], patch_id = s->draws[index].patch_id;
+        const uint index = block->list[s->first + slot], patch_id = s->draws[index].patch_id;
         uint before = 0u, smaller = 0u, start = 0u;
         for (uint other = 0u; other < count; other++) {
-            const uint its = tile->list[s->first + other];
+            const uint its = block->list[s->first + other];
             before += its < index ? 1u : 0u;
             smaller += s->draws[its].patch_id < patch_id ? 1u : 0u;
             start += other < slot ? micropolygons(s, its) : 0u;
         }
-        tile->rank[slot] = before;
-        tile->patch_rank[slot] = smaller;
-        tile->order[before] = index;
-        tile->start[slot] = start;
+        block->rank[slot] = before;
+        block->patch_rank[slot] = smaller;
+        block->order[before] = index;
+        block->start[slot] = start;
         if (slot + 1u == count) {
-            tile->start[count] = start + micropolygons(s, index);
+            block->start[count] = start + micropolygons(s, index);
         }
-    }
-}
-
-// Samples a micropolygon of the draw in a slot.
-static void sample_one(Sampler *s, uint kind, uint slot, uint number) {
-    const uint index = s->tile->list[s->first + slot], base = grid_base(s->frame, index);
-    const uint rate = rates_in(s->grids[flags_place(index)]).x;
-    const Place place = new_place(number % rate, number / rate);
-    const uint key = slot << CELL_BITS | cell_of(place);
-    if (kind == KIND_NEAR) {
-        sample_near(s, base, quad_of(rate, place), key);
-    } else {
-        sample_general(s, base, quad_of(rate, place), key);
     }
 }
 
 // Samples the micropolygons of the listed draws, every 64th a work-item.
 static void sample_all(Sampler *s, uint kind, uint count, uint lane) {
-    __local const ushort *start = s->tile->start;
+    __local const ushort *start = s->block->start;
     const uint all = start[count];
     uint slot = 0u;
     for (uint task = lane; task < all; task += GROUP) {
         while (task >= start[slot + 1u]) {
             slot += 1u;
         }
-        sample_one(s, kind, slot, task - start[slot]);
+        sample_one(s, kind, s->block->list[s->first + slot], task - start[slot], slot);
     }
 }
 
 static void compare_hits(const Sampler *s, uint lane) {
-    __local Tile *tile = s->tile;
-    for (uint hit = lane; hit < tile->hits; hit += GROUP) {
-        const uint place = tile->hit_place[hit];
-        compare(s, place >> PIXEL_SHIFT, tile->hit_depth[hit], place & ((1u << PIXEL_SHIFT) - 1u));
+    __local Block *block = s->block;
+    for (uint hit = lane; hit < block->hits; hit += GROUP) {
+        const uint place = block->hit_place[hit];
+        compare(s, place >> PLACE_SHIFT, block->hit_depth[hit], place & ((1u << PLACE_SHIFT) - 1u));
     }
 }
 
-// Shows the candidate of a pixel if it is nearer than what is stored.
-static void resolve_pixel(const Sampler *s, uint pixel, uint at, __global Sample *samples,
-                          __global Colour *colours) {
-    __local const Tile *tile = s->tile;
-    const uint index = tile->order[tile->v_draw[pixel] & ((1u << RANK_BITS) - 1u)];
-    const Surface surface = surface_of(s->draws[index]);
-    const uint u = tile->patch_u[pixel] & (PARAM_ONE - 1u), v = tile->v_draw[pixel] >> RANK_BITS;
-    const Sample found = {tile->depth[pixel], surface.patch_id, u, v};
-    if (nearer(found, samples[at])) {
-        const Place place = new_place((u - surface.u) / (u_size(surface) >> MAX_RATE_BITS),
-                                      (v - surface.v) / (v_size(surface) >> MAX_RATE_BITS));
-        const Quad quad = quad_of(rates_in(s->grids[flags_place(index)]).x, place);
-        samples[at] = found;
-        colours[at] = colour_of(s->frame, s->grids, grid_base(s->frame, index), quad);
+// Shows the candidate of a sample if it is nearer than what is stored.
+static void resolve_sample(const Sampler *s, uint at, __global Sample *samples) {
+    __local const Block *block = s->block;
+    const int column = s->box.x + (int)(at % BLOCK), row = s->box.z + (int)(at / BLOCK);
+    const uint index = block->order[block->v_draw[at] & ((1u << RANK_BITS) - 1u)];
+    const Draw draw = s->draws[index];
+    const Sample found = {block->depth[at], draw.patch_id, block->patch_u[at] & (PARAM_ONE - 1u),
+                          block->v_draw[at] >> RANK_BITS};
+    const uint place = place_of_sample(s->frame, column, row);
+    if (nearer(found, samples[place])) {
+        samples[place] = found;
+        s->colours[place] = colour_at(s, index, place_of_parameters(draw, found.u, found.v), column, row);
     }
 }
 
-static void resolve(const Sampler *s, __global Sample *samples, __global Colour *colours, uint lane) {
-    for (uint pixel = lane; pixel < TILE_PIXELS; pixel += GROUP) {
-        if (s->tile->patch_u[pixel] != NOBODY) {
-            const uint column = s->box.x + pixel % TILE, row = s->box.z + pixel / TILE;
-            resolve_pixel(s, pixel, row * s->frame->width + column, samples, colours);
-            s->tile->patch_u[pixel] = NOBODY;
-            s->tile->v_draw[pixel] = NOBODY;
+static void resolve(const Sampler *s, __global Sample *samples, uint lane) {
+    for (uint at = lane; at < BLOCK_SAMPLES; at += GROUP) {
+        if (s->block->patch_u[at] != NOBODY) {
+            resolve_sample(s, at, samples);
+            s->block->patch_u[at] = NOBODY;
+            s->block->v_draw[at] = NOBODY;
         }
     }
 }
 
 // Depths, who has them, then what has become visible, LISTED draws at a time.
-static void sample_listed(Sampler *s, uint kind, __global Sample *samples, __global Colour *colours, uint lane) {
-    const uint listed = s->tile->listed;
+static void sample_listed(Sampler *s, uint kind, __global Sample *samples, uint lane) {
+    const uint listed = s->block->listed;
     for (s->first = 0u; s->first < listed; s->first += LISTED) {
         const uint count = listed - s->first < LISTED ? listed - s->first : LISTED;
         give_ranks(s, count, lane);
         if (s->first == 0u) {
-            recall(s, samples, lane);
+            recall(s, lane);
         }
         if (lane == 0u) {
-            s->tile->hits = 0u;
+            s->block->hits = 0u;
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         for (s->turn = 0u; s->turn < 3u; s->turn++) {
-            if (s->turn > 0u && s->tile->hits <= HITS) {
+            if (s->turn > 0u && s->block->hits <= HITS) {
                 compare_hits(s, lane);
             } else {
                 sample_all(s, kind, count, lane);
             }
             barrier(CLK_LOCAL_MEM_FENCE);
         }
-        resolve(s, samples, colours, lane);
+        resolve(s, samples, lane);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
 }
 
-static void tiles(__constant Frame *frame, uint kind, __global const Draw *all_draws,
-                  __global const uint *grids, __global Sample *samples, __global Colour *colours,
-                  __local Tile *tile) {
+static void tiles(__constant Frame *frame, uint kind, __global const Draw *draws, __global const uint *grids,
+                  __global const uint *lists, __global const Sample *behind, __global Sample *samples,
+                  __global Colour *colours, __local Block *block) {
     const uint lane = get_local_id(0);
     if (grids[HEAD_KINDS + kind - 1u] == 0u) {
         return;
     }
-    Sampler s = {frame, grids, all_draws + grids[HEAD_START], tile, tile_box(frame), 0u, 0u};
+    Sampler s = {frame, grids, draws + grids[HEAD_START], behind, own_box(frame), 0u, block, 0u, 0, samples, colours};
     if (lane == 0u) {
-        tile->blocks_listed = 0u;
-        tile->listed = 0u;
+        block->listed = 0u;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    list_blocks(&s, lane);
+    list_draws(&s, kind, lists, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
-    list_draws(&s, kind, lane);
-    barrier(CLK_LOCAL_MEM_FENCE);
-    sample_listed(&s, kind, samples, colours, lane);
+    sample_listed(&s, kind, samples, lane);
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void tiles_near(__constant Frame *frame, __global const Draw *draws, __global const uint *grids,
-                __global Sample *samples, __global Colour *colours) {
-    __local Tile tile;
-    tiles(frame, KIND_NEAR, draws, grids, samples, colours, &tile);
+                __global const uint *lists, __global const Sample *behind, __global Sample *samples,
+                __global Colour *colours) {
+    __local Block block;
+    tiles(frame, KIND_NEAR, draws, grids, lists, behind, samples, colours, &block);
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void tiles_general(__constant Frame *frame, __global const Draw *draws, __global const uint *grids,
-                   __global Sample *samples, __global Colour *colours) {
-    __local Tile tile;
-    tiles(frame, KIND_GENERAL, draws, grids, samples, colours, &tile);
+                   __global const uint *lists, __global const Sample *behind, __global Sample *samples,
+                   __global Colour *colours) {
+    __local Block block;
+    tiles(frame, KIND_GENERAL, draws, grids, lists, behind, samples, colours, &block);
 }

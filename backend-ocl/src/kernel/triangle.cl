@@ -3,6 +3,14 @@
 // Edge functions need 64-bit integers. Where all corners lie within 64 pixels of the sample they fit 32 bits,
 // which gives the same answers faster.
 
+// What a triangle shows at a sample that it owns: 1 / distance, and the shares of the second and the third corner.
+// No 1 / distance: it does not own it.
+typedef struct {
+    float w;
+    float for_b;
+    float for_c;
+} Hit;
+
 // A snapped vertex as seen from a sample.
 typedef struct {
     int x;
@@ -10,12 +18,9 @@ typedef struct {
     float w;
 } Corner;
 
-static int centre(int pixel) {
-    return pixel * SUBPIXELS + SUBPIXELS / 2;
-}
-
-static Corner new_corner(Vertex vertex, int column, int row) {
-    const Corner corner = {vertex.x - centre(column), vertex.y - centre(row), vertex.w};
+// `vertex` as seen from a sample, which is at a place in snapped units.
+static Corner new_corner(Vertex vertex, int2 site) {
+    const Corner corner = {vertex.x - site.x, vertex.y - site.y, vertex.w};
     return corner;
 }
 
@@ -59,13 +64,18 @@ static bool owns(Corner a, Corner b, Corner c, int ea, int eb, int ec, int area)
         && owns_border(a, b, ec, area);
 }
 
-// 1 / distance from area and weights that fit 24 bits.
-static float depth(uint zero, float a, float b, float c, uint area, uint for_b, uint for_c) {
+// A value of three corners at a place inside the triangle, given the shares of the second and the third.
+static float weighted(uint zero, float a, float b, float c, float for_b, float for_c) {
+    const float value = add(a, add(mul(for_b, sub(b, a)), mul(for_c, sub(c, a))));
+    return clamp(value, min(min(a, b), c), max(max(a, b), c));
+}
+
+// From area and weights that fit 24 bits.
+static Hit hit(uint zero, Corner a, Corner b, Corner c, uint area, uint weight_b, uint weight_c) {
     const float share = recip(number((int)area));
-    const float weight_b = mul(number((int)for_b), share);
-    const float weight_c = mul(number((int)for_c), share);
-    const float w = add(a, add(mul(weight_b, sub(b, a)), mul(weight_c, sub(c, a))));
-    return clamp(w, min(min(a, b), c), max(max(a, b), c));
+    const float for_b = mul(number((int)weight_b), share), for_c = mul(number((int)weight_c), share);
+    const Hit found = {weighted(zero, a.w, b.w, c.w, for_b, for_c), for_b, for_c};
+    return found;
 }
 
 // Bits by which an area must be shifted to fit a float's mantissa, from its leading zeros in 64 bits.
@@ -73,20 +83,18 @@ static uint spare_bits(uint leading_zeros) {
     return leading_zeros < 40u ? 40u - leading_zeros : 0u;
 }
 
-// 1 / distance at the centre of a pixel, or 0 if the triangle does not own that sample.
-static float sample_triangle(uint zero, Vertex va, Vertex vb, Vertex vc, int column, int row) {
-    const Corner a = new_corner(va, column, row);
-    const Corner b = new_corner(vb, column, row);
-    const Corner c = new_corner(vc, column, row);
+static Hit sample_triangle(uint zero, Vertex va, Vertex vb, Vertex vc, int2 site) {
+    const Corner a = new_corner(va, site), b = new_corner(vb, site), c = new_corner(vc, site);
     const long ea = wide_edge(b, c), eb = wide_edge(c, a), ec = wide_edge(a, b);
     const long area = ea + eb + ec;
     if (!owns(a, b, c, wide_sign(ea), wide_sign(eb), wide_sign(ec), wide_sign(area))) {
-        return 0.0f;
+        const Hit none = {0.0f, 0.0f, 0.0f};
+        return none;
     }
     const ulong whole = wide_magnitude(area);
     const uint spare = spare_bits((uint)clz(whole));
-    return depth(zero, a.w, b.w, c.w, (uint)(whole >> spare), (uint)(wide_magnitude(eb) >> spare),
-                 (uint)(wide_magnitude(ec) >> spare));
+    return hit(zero, a, b, c, (uint)(whole >> spare), (uint)(wide_magnitude(eb) >> spare),
+               (uint)(wide_magnitude(ec) >> spare));
 }
 
 // Sign of the area of a triangle on screen: -1 if it runs anticlockwise.
@@ -96,8 +104,17 @@ static int signed_area(Vertex a, Vertex b, Vertex c) {
     return wide_sign(wide_edge(to_b, to_c));
 }
 
-// First pixel whose centre is not before `low`, and one past the last whose centre is not after `high`.
-static int2 pixels_between(int low, int high) {
-    const int half_pixel = SUBPIXELS / 2;
-    return (int2)((low + half_pixel - 1) >> SUBPIXEL_BITS, ((high - half_pixel) >> SUBPIXEL_BITS) + 1);
+// Where the sample in this column and row is.
+static int2 site(__constant Frame *frame, int column, int row) {
+    const int mask = (1 << frame->pattern_bits) - 1;
+    const int index = (row & mask) << frame->pattern_bits | (column & mask);
+    return (int2)((column << frame->pitch_bits) + frame->sample_x[index],
+                  (row << frame->pitch_bits) + frame->sample_y[index]);
+}
+
+// First column (or row) of samples that need not be before `low`, and one past the last that need not be after `high`.
+static int2 samples_between(__constant Frame *frame, int low, int high) {
+    const int field = (1 << frame->pitch_bits) - 1;
+    return (int2)((low - frame->most_offset + field) >> frame->pitch_bits,
+                  ((high - frame->least_offset) >> frame->pitch_bits) + 1);
 }
