@@ -1,6 +1,8 @@
 //! Antialiasing, layers that can be seen through, motion blur and depth of field, crop windows and parts of an image:
 //! against what is worked out here by other means.
 
+#![allow(clippy::disallowed_methods)] // what is worked out here need not be the same bits everywhere
+
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly::core::camera::{Camera, Light, Material};
 use micropoly::{
