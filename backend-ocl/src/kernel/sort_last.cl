@@ -10,7 +10,7 @@ void stage_sort_last(__constant Frame *frame, __global const Draw *draws, __glob
     if (index >= grids[HEAD_COUNT] || kind == KIND_HIDDEN) {
         return;
     }
-    Sampler s = {frame, grids, draws + grids[HEAD_START], behind, frame_box(frame), turn, 0, 0u, keys, samples, colours};
+    Sampler s = {frame, grids, &draws[grids[HEAD_START]], behind, frame_box(frame), turn, 0, 0u, keys, samples, colours};
     const uint count = rates_in(flags).x * rates_in(flags).y;
     for (uint number = get_local_id(0); number < count; number += GROUP) {
         sample_one(&s, kind, index, number, index);

@@ -31,10 +31,9 @@ static int4 tiles_of(__constant Frame *frame, int4 samples) {
                   ((samples.w - 1 - top) >> bits) + 1);
 }
 
-// The tiles that draw `index` of the chunk can touch; none if there is nothing to be seen of it.
+// The tiles that draw `index` of the chunk can touch; none if there is no such draw.
 static int4 tiles_of_draw(__constant Frame *frame, __global const uint *grids, uint index) {
-    const bool is_one = index < grids[HEAD_COUNT] && (grids[flags_place(index)] & KIND_MASK) != KIND_HIDDEN;
-    return is_one ? tiles_of(frame, box_at(grids, index)) : (int4)(0);
+    return index < grids[HEAD_COUNT] ? tiles_of(frame, box_at(grids, index)) : (int4)(0);
 }
 
 __kernel void count_tiles(__constant Frame *frame, __global const uint *grids, __global uint *lists) {

@@ -145,7 +145,7 @@ static void tiles(__constant Frame *frame, uint kind, __global const Draw *draws
     if (grids[HEAD_KINDS + kind - 1u] == 0u) {
         return;
     }
-    Sampler s = {frame, grids, draws + grids[HEAD_START], behind, own_box(frame), 0u, block, 0u, 0, samples, colours};
+    Sampler s = {frame, grids, &draws[grids[HEAD_START]], behind, own_box(frame), 0u, block, 0u, 0, samples, colours};
     if (lane == 0u) {
         block->listed = 0u;
     }
