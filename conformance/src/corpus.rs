@@ -19,7 +19,11 @@ use micropoly_core::border::{SIDES, Side};
 use micropoly_core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::displacement::Displacement;
 use micropoly_core::kernel::bound::bound_any;
+use micropoly_core::kernel::dense::Pattern;
+use micropoly_core::kernel::dice::Grid;
+use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::mesh;
+use micropoly_core::kernel::sample::{Band, sample as sample_grid};
 use micropoly_core::kernel::scan::scan;
 use micropoly_core::known::question;
 use micropoly_core::patch::gregory::INNER;
@@ -529,8 +533,14 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
     frame.flags |= [0, FLAG_SMOOTH][random.usize(0..2)];
     let is_layered = random.u8(0..3) == 0;
     frame.flags |= if is_layered { FLAG_LAYERS } else { 0 };
-    let before: Vec<Sample> = (0..places).map(|_| sample(random)).collect();
-    let behind: Vec<Sample> = (0..if is_layered { places } else { 1 }).map(|_| layer(random)).collect();
+    let real = &draws[..draws.len() - 1];
+    let shown = rendered(&frame, (&objects, &patches), real, places as usize);
+    let before: Vec<Sample> =
+        shown.iter().map(|shown| rival(random, *shown).unwrap_or_else(|| sample(random))).collect();
+    let behind: Vec<Sample> = match is_layered {
+        true => shown.iter().map(|shown| rival(random, *shown).unwrap_or_else(|| layer(random))).collect(),
+        false => vec![layer(random)],
+    };
     let buffers = vec![
         words(&[frame]),
         words(&objects),
@@ -542,6 +552,37 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
         empty::<Colour>(places as usize),
     ];
     (Items::Image(Extent::of(&frame, places)), buffers)
+}
+
+/// What draws show if nothing was there before.
+fn rendered(
+    frame: &Frame,
+    (objects, patches): (&[Object], &[Patch]),
+    draws: &[Draw],
+    places: usize,
+) -> Vec<Sample> {
+    let (mut samples, mut colours) = (vec![Sample::default(); places], vec![Colour::default(); places]);
+    let (pattern, mut grid) = (Pattern::new(frame), Box::new(Grid::default()));
+    let mut band = Band::whole(frame, &mut samples, &mut colours);
+    for draw in draws {
+        let object = &objects[patches[draw.patch_id as usize].object as usize];
+        dice_any(frame, patches, object, *draw, &mut grid);
+        sample_grid(frame, &pattern, (*draw, 1.0), &grid, &mut band);
+    }
+    samples
+}
+
+/// Now and then, of a sample that shows something, one that is as near and differs in one number of its identity at most.
+fn rival(random: &mut fastrand::Rng, shown: Sample) -> Option<Sample> {
+    let Sample { depth, patch_id, u, v } = shown;
+    let beside = |random: &mut fastrand::Rng, number: u32| (number + random.u32(0..=2)).saturating_sub(1);
+    match random.u8(0..8) {
+        _ if depth == 0 => None,
+        0 => Some(Sample { patch_id: beside(random, patch_id), ..shown }),
+        1 => Some(Sample { u: beside(random, u), ..shown }),
+        2 => Some(Sample { v: beside(random, v), ..shown }),
+        _ => None,
+    }
 }
 
 /// Are both of one patch, and have some of it in common?
