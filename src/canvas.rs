@@ -5,12 +5,14 @@ use std::time::Instant;
 use glam::Vec3;
 use micropoly_core::abi::Pixel;
 use micropoly_core::backend::Device;
+use micropoly_core::camera::FrameOptions;
+use micropoly_core::kernel::displace::normal_at;
 use micropoly_core::pattern::Window;
 use rayon::prelude::*;
 
+use crate::error::Result;
 use crate::film::Film;
 use crate::image::{Encoder, Image};
-use crate::passes::Passes;
 use crate::render::Subject;
 
 /// Rows that are read from the device and encoded at once.
@@ -42,7 +44,7 @@ impl Canvas {
         device: &mut D,
         buffer: &D::Buffer,
         part: Window,
-    ) -> Result<(), D::Error> {
+    ) -> std::result::Result<(), D::Error> {
         let start = Instant::now();
         let wide = part.width() as usize;
         let mut block = vec![Pixel::default(); wide * ROWS.min(part.height() as usize)];
@@ -68,11 +70,28 @@ impl Canvas {
         }
     }
 
-    /// What it shows as linear values.
-    pub(crate) fn film(&mut self, job: &Passes<'_>, subject: Subject<'_>, size: (u32, u32)) -> Film {
+    /// What it shows as linear values; normals are those of the moment when the shutter opens, seen through the middle of
+    /// the lens.
+    ///
+    /// # Errors
+    /// As [`crate::Shot::view`].
+    pub(crate) fn film(&mut self, subject: Subject<'_>, options: &FrameOptions) -> Result<Film> {
+        let Subject { scene, shot, patches } = subject;
+        let camera = shot.camera(scene, shot.time)?;
+        let (frame, objects) = scene.view(&camera, shot.time, options)?;
+        let to_world = camera.view.matrix3.transpose();
+        let normal = |pixel: &Pixel| {
+            if pixel.depth == 0 {
+                return [0.0; 3];
+            }
+            let object = &objects[patches[pixel.patch_id as usize].object as usize];
+            let normal = normal_at(&frame, patches, object, pixel.patch_id, pixel.u, pixel.v);
+            (to_world * Vec3::from(normal).as_dvec3()).as_vec3().to_array()
+        };
         let pixels = std::mem::take(&mut self.pixels);
-        let normals = pixels.par_iter().map(|pixel| job.normal(subject, pixel)).collect();
-        Film { window: self.window, size, background: self.background, pixels, normals }
+        let normals = pixels.par_iter().map(normal).collect();
+        let size = (options.width, options.height);
+        Ok(Film { window: self.window, size, background: self.background, pixels, normals })
     }
 
     /// What it shows.

@@ -1,14 +1,12 @@
 //! An image in passes: parts of it, one after the other, so that all samples of a part fit the memory; for each of them
 //! layers, while something can be seen through; for each layer the moments of a blurred image.
 
-use glam::Vec3;
-use micropoly_core::abi::{Frame, Object, Pixel, Tap};
+use micropoly_core::abi::{Frame, Object, Tap};
 use micropoly_core::backend::Device;
 use micropoly_core::error::PlanError;
-use micropoly_core::kernel::displace::normal_at;
 use micropoly_core::memory::{Area, Room, Sizes};
 use micropoly_core::pattern::{Region, Samples, Tuple, Window, tuples};
-use micropoly_core::reconstruction::{MAX_TAPS, MIN_RADIUS};
+use micropoly_core::reconstruction::{MAX_RADIUS, MAX_TAPS, MIN_RADIUS};
 use micropoly_core::render::{Buffers, Counts, FramePlan};
 use micropoly_core::stage::Extent;
 
@@ -58,18 +56,6 @@ impl<'a> Passes<'a> {
         Ok(Self { scene, options, window, views, tuples, taps: taps(options)? })
     }
 
-    /// The unit normal, in world space, of what a pixel shows; zero if that is nothing.
-    pub(crate) fn normal(&self, subject: Subject<'_>, pixel: &Pixel) -> [f32; 3] {
-        if pixel.depth == 0 {
-            return [0.0; 3];
-        }
-        let (frame, objects) = &self.views[0];
-        let object = &objects[subject.patches[pixel.patch_id as usize].object as usize];
-        let normal = normal_at(frame, subject.patches, object, pixel.patch_id, pixel.u, pixel.v);
-        let to_world = subject.scene.camera.view.matrix3.transpose();
-        (to_world * Vec3::from(normal).as_dvec3()).as_vec3().to_array()
-    }
-
     fn samples(&self) -> Samples {
         self.options.frame.samples
     }
@@ -82,9 +68,14 @@ impl<'a> Passes<'a> {
         parts.map(|shown| Region { samples, window: shown.widened(margin, width, height), shown }).collect()
     }
 
-    /// The frame of a part, with all its samples.
+    /// The frame of a part, with all its samples, in the first view.
     fn frame(&self, region: Region) -> Frame {
-        let frame = Frame { taps: self.taps.len() as u32, ..self.views[0].0 };
+        self.frame_in(&self.views[0].0, region)
+    }
+
+    /// The same in any view.
+    fn frame_in(&self, view: &Frame, region: Region) -> Frame {
+        let frame = Frame { taps: self.taps.len() as u32, ..*view };
         frame.with_region(region, self.options.frame.tile)
     }
 
@@ -134,17 +125,17 @@ impl<'a> Passes<'a> {
             let mut inner = |share: f64, counts: &Counts| {
                 progress(&Progress { share: (index as f64 + share) / regions.len() as f64, counts });
             };
-            let frame = self.frame(*region);
             if index > 0 {
                 plan.clear(device, buffers).map_err(failed)?; // new buffers are clear
             }
-            let aimed = loop {
-                counts = counts.and(self.layer(device, plan, buffers, frame, &mut inner).map_err(failed)?);
-                let aimed = plan.aimed(device, buffers, frame, &self.views[0].1).map_err(failed)?;
-                if !self.scene.is_transparent() || !aimed.blend(device, buffers).map_err(failed)? {
-                    break aimed;
+            loop {
+                counts = counts.and(self.layer(device, plan, buffers, *region, &mut inner).map_err(failed)?);
+                if !self.scene.is_transparent() || !plan.blend(device, buffers).map_err(failed)? {
+                    break;
                 }
-            };
+            }
+            let whole = self.frame(*region);
+            let aimed = plan.aimed(device, buffers, whole, &self.views[0].1).map_err(failed)?;
             aimed.filter(device, buffers, &self.taps).map_err(failed)?;
             canvas.take(device, &buffers.pixels, region.shown).map_err(failed)?;
         }
@@ -157,20 +148,15 @@ impl<'a> Passes<'a> {
         device: &mut D,
         plan: &FramePlan,
         buffers: &mut Buffers<D::Buffer>,
-        frame: Frame,
+        region: Region,
         progress: &mut impl FnMut(f64, &Counts),
     ) -> std::result::Result<Counts, D::Error> {
         let patches = self.scene.patch_count() as f64;
         let mut counts = Counts::default();
         for (index, (view, objects)) in self.views.iter().enumerate() {
-            let frame = match self.tuples.get(index) {
-                None => frame,
-                Some(tuple) => {
-                    let frame = Frame { taps: frame.taps, ..*view }
-                        .with_region(region_of(&frame, self.samples()), self.options.frame.tile);
-                    frame.with_tuple(self.samples(), *tuple)
-                }
-            };
+            let whole = self.frame_in(view, region);
+            let tuple = self.tuples.get(index);
+            let frame = tuple.map_or(whole, |tuple| whole.with_tuple(self.samples(), *tuple));
             let plan = plan.aimed(device, buffers, frame, objects)?;
             let own = plan.run(device, buffers, |own| {
                 let share = (index as f64 + own.roots_taken as f64 / patches) / self.views.len() as f64;
@@ -180,12 +166,6 @@ impl<'a> Passes<'a> {
         }
         Ok(counts)
     }
-}
-
-/// The region that a frame has all samples of.
-fn region_of(frame: &Frame, samples: Samples) -> Region {
-    let window = Window { left: frame.left, right: frame.right, top: frame.top, bottom: frame.bottom };
-    Region { samples, window, shown: window }
 }
 
 /// The larger of two extents.
@@ -198,7 +178,10 @@ fn taps(options: &RenderOptions) -> Result<Vec<Tap>> {
     let filter = options.filter;
     if !filter.is_sound() {
         let problem = format!("a filter with a radius of {} pixels is not possible", filter.radius);
-        return Err(Error::scene(problem, format!("choose a radius from {MIN_RADIUS} to 4 pixels")));
+        return Err(Error::scene(
+            problem,
+            format!("choose a radius from {MIN_RADIUS} to {MAX_RADIUS} pixels"),
+        ));
     }
     let mut taps = vec![Tap::default(); MAX_TAPS];
     let count = filter.taps(options.frame.samples, &mut taps);

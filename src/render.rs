@@ -180,7 +180,7 @@ pub(crate) fn render_from<D: Device>(
     let counts = job.run(&mut device, &plan, &mut buffers, &regions, &mut canvas, progress)?;
     let resolving = Instant::now();
     let bytes_allocated = device.bytes_allocated();
-    let film = options.film.then(|| canvas.film(&job, subject, (options.frame.width, options.frame.height)));
+    let film = options.film.then(|| canvas.film(subject, &options.frame)).transpose()?;
     let resolve = device.seconds.resolve + canvas.seconds + resolving.elapsed().as_secs_f64();
     let seconds = Seconds { setup, resolve, ..device.seconds };
     Ok(Rendering {

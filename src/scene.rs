@@ -274,7 +274,13 @@ impl Scene {
     /// Does anything move, be it the camera?
     #[must_use]
     pub fn moves(&self) -> bool {
-        self.path.is_some() || self.objects.iter().any(|object| !object.motion.is_none())
+        self.path.is_some() || self.objects_move()
+    }
+
+    /// Does any object move?
+    #[must_use]
+    pub fn objects_move(&self) -> bool {
+        self.objects.iter().any(|object| !object.motion.is_none())
     }
 
     /// Is any object displaced?
@@ -284,8 +290,8 @@ impl Scene {
     }
 
     fn check_looks(&self) -> Result<()> {
-        let opacities = self.objects.iter().map(|object| object.material.opacity);
-        if opacities.into_iter().all(|opacity| opacity > 0.0 && opacity <= 1.0) {
+        let mut opacities = self.objects.iter().map(|object| object.material.opacity);
+        if opacities.all(|opacity| opacity > 0.0 && opacity <= 1.0) {
             return Ok(());
         }
         Err(Error::scene("an opacity is not above 0 and up to 1", "use 1 for what cannot be seen through"))

@@ -82,8 +82,21 @@ impl Shot {
     /// Does this blur make a difference?
     #[must_use]
     pub fn is_blurred(&self, scene: &Scene, blur: &Blur) -> bool {
-        let moves = self.still.is_none() || scene.objects.iter().any(|object| !object.motion.is_none());
+        let moves = self.still.is_none() || scene.objects_move();
         blur.lens.is_some() || (blur.shutter > 0.0 && moves)
+    }
+
+    /// The camera at any moment of the shot.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the path has no such frame, or the camera looks nowhere there.
+    pub fn camera(&self, scene: &Scene, now: f64) -> Result<Camera> {
+        match (self.still, &scene.path) {
+            (Some(camera), _) => Ok(camera),
+            // The path's last frame is its end: the camera stops there.
+            (None, Some(path)) => scene.camera_at(now.min(f64::from(path.frames().1))),
+            (None, None) => Ok(scene.camera),
+        }
     }
 
     /// The scene as devices read it, as seen when `time` of the shutter's opening has passed (0 to 1), from this place on a
@@ -99,12 +112,7 @@ impl Shot {
         (time, lens): (f64, [f64; 2]),
     ) -> Result<(Frame, Vec<Object>)> {
         let now = self.time + blur.shutter * time;
-        let camera = match (self.still, &scene.path) {
-            (Some(camera), _) => camera,
-            // The path's last frame is its end: the camera stops there.
-            (None, Some(path)) => scene.camera_at(now.min(f64::from(path.frames().1)))?,
-            (None, None) => scene.camera,
-        };
+        let camera = self.camera(scene, now)?;
         let camera = blur.lens.map_or(camera, |thin| through(&camera, thin, blur.sensor, lens));
         scene.view(&camera, now, options)
     }

@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly::core::camera::{Camera, Light, Material};
 use micropoly::{
     Backend, Batch, BezierPatch, Blur, Film, Filter, FrameOptions, Kernel, Lens, Motion, Rasteriser,
-    RenderOptions, Rendering, Samples, Scene, SceneObject, Shading, Window, render,
+    RenderOptions, Rendering, Samples, Scene, SceneObject, Shading, Shot, Window, render, render_frames,
 };
 
 fn options(samples: Samples) -> RenderOptions {
@@ -412,5 +412,35 @@ fn filters_blurs_and_opacities_that_cannot_be_are_refused() {
     for blur in wrong {
         let said = refusal(&teapot(), &RenderOptions { blur: Some(blur), ..options(Samples::One) });
         assert!(said.contains("shutter") && said.contains("lens"), "{said}");
+    }
+}
+
+#[test]
+fn normals_are_in_world_space_wherever_the_camera_is_and_whatever_its_lens() {
+    let mut scene = Scene::load("scenes/city.toml").expect("a scene");
+    let options = options(Samples::One);
+    let mut films = Vec::new();
+    let shot = Shot::at(&scene, 300.0).expect("a frame");
+    let mut keep = |_, rendering: Rendering| {
+        films.push(rendering.film.expect("it was asked for"));
+        Ok(())
+    };
+    render_frames(&scene, &options, &[shot], &mut keep).expect("renders");
+    let lens = Some(Lens { fstop: 1.0e6, focus: 1.0 }); // as good as a pinhole
+    let blurred = RenderOptions { blur: Some(Blur { lens, ..Blur::default() }), ..options.clone() };
+    render_frames(&scene, &blurred, &[shot], &mut keep).expect("renders");
+    scene.camera = scene.camera_at(300.0).expect("a camera");
+    let still = film(&scene, &options);
+    let upright = |normal: &[f32; 3]| normal.iter().filter(|k| k.abs() > 0.999).count() == 1;
+    for moving in &films {
+        let same = moving
+            .normals
+            .iter()
+            .zip(&still.normals)
+            .filter(|(a, b)| Vec3::from(**a).distance(Vec3::from(**b)) < 1.0e-4);
+        assert!(same.count() * 10 > still.normals.len() * 9);
+        // Houses are boxes: their walls and roofs face along an axis of the world.
+        let boxes = moving.normals.iter().filter(|normal| upright(normal)).count();
+        assert!(boxes * 2 > moving.normals.len(), "{boxes}");
     }
 }

@@ -13,6 +13,27 @@ use crate::device::CpuError;
 /// Blocks that one thread clears at a time.
 const CLEAR_CHUNK: usize = 1 << 14;
 
+/// Bytes that something of the device's own holds, as the device counts them; they only ever rise.
+#[derive(Debug)]
+pub(crate) struct Claim {
+    bytes: u64,
+    allocated: Arc<AtomicU64>,
+}
+
+impl Claim {
+    pub(crate) fn new(allocated: &Arc<AtomicU64>) -> Self {
+        Self { bytes: 0, allocated: Arc::clone(allocated) }
+    }
+
+    /// Claims so many bytes, unless they are claimed already.
+    pub(crate) fn raise_to(&mut self, bytes: u64) {
+        if bytes > self.bytes {
+            self.allocated.fetch_add(bytes - self.bytes, Ordering::Relaxed);
+            self.bytes = bytes;
+        }
+    }
+}
+
 /// Storage unit: keeps every entry aligned.
 type Block = [u32; 4];
 

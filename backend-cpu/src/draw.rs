@@ -7,17 +7,18 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use micropoly_core::abi::{Colour, Control, Draw, FLAG_LAYERS, Frame, Object, Patch, SUBPIXELS, Sample};
+use micropoly_core::abi::{Colour, Control, Draw, FLAG_LAYERS, Frame, Object, Patch, Sample};
 use micropoly_core::kernel::dense::Pattern;
 use micropoly_core::kernel::dice::Grid;
 use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::shade::shade;
-use micropoly_core::kernel::triangle::samples_between;
+use micropoly_core::kernel::triangle::samples_of;
 use micropoly_core::stage::Extent;
 use multiversion::multiversion;
 use rayon::prelude::*;
 
+use crate::buffer::Claim;
 use crate::device::CpuError;
 use crate::stages::Buffers;
 
@@ -88,41 +89,18 @@ impl Scene<'_> {
     }
 }
 
-/// Columns and rows of samples that a draw can touch: left, right, top, bottom.
-pub(crate) fn samples_of(frame: &Frame, draw: Draw) -> [i32; 4] {
-    let along = |packed: u32, first: u32, end: u32| {
-        let [low, high] = [packed & 0xffff, packed >> 16].map(|pixel| pixel as i32 * SUBPIXELS);
-        let (from, to) = samples_between(frame, low, high - 1);
-        [from.max(first as i32), to.min(end as i32)]
-    };
-    let [left, right] = along(draw.columns, frame.sample_left, frame.sample_right);
-    let [top, bottom] = along(draw.rows, frame.sample_top, frame.sample_bottom);
-    [left, right, top, bottom]
-}
-
 /// The draws of each tile, as numbers; kept from frame to frame.
 #[derive(Debug)]
 pub(crate) struct Lists {
     /// Where each tile's list starts, and where the last one ends.
     starts: Vec<u32>,
     list: Vec<u32>,
-    /// Bytes that were told of.
-    bytes: u64,
-    allocated: Arc<AtomicU64>,
+    claim: Claim,
 }
 
 impl Lists {
     pub(crate) fn new(allocated: &Arc<AtomicU64>) -> Self {
-        Self { starts: Vec::new(), list: Vec::new(), bytes: 0, allocated: Arc::clone(allocated) }
-    }
-
-    /// Makes room for all that a frame can need, once for all its draws.
-    fn fit(&mut self, extent: &Extent) {
-        let bytes = own_bytes(extent);
-        if bytes > self.bytes {
-            self.allocated.fetch_add(bytes - self.bytes, Ordering::Relaxed);
-            self.bytes = bytes;
-        }
+        Self { starts: Vec::new(), list: Vec::new(), claim: Claim::new(allocated) }
     }
 }
 
@@ -144,7 +122,7 @@ impl<'a> Tiles<'a> {
             bits => [1 << bits; 2],
         };
         let (columns, rows) = (wide.div_ceil(side[0]), high.div_ceil(side[1]));
-        lists.fit(&extent);
+        lists.claim.raise_to(own_bytes(&extent));
         lists.starts.resize(columns * rows + 1, 0);
         Self { columns, side, lists }
     }

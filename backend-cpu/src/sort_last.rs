@@ -13,10 +13,12 @@ use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::sample::{Target, sample};
 use micropoly_core::kernel::shade::shade;
 use micropoly_core::kernel::sort_last::{NOBODY, Turn, merge, shown};
+use micropoly_core::kernel::triangle::{place, samples_of};
 use micropoly_core::stage::Extent;
 use multiversion::multiversion;
 use rayon::prelude::*;
 
+use crate::buffer::Claim;
 use crate::device::CpuError;
 use crate::draw::{Scene, for_each_band};
 use crate::stages::Buffers;
@@ -62,23 +64,17 @@ impl Key {
 pub(crate) struct Keys {
     keys: Vec<Key>,
     grids: Vec<Grid>,
-    /// Bytes that were told of.
-    bytes: u64,
-    allocated: Arc<AtomicU64>,
+    claim: Claim,
 }
 
 impl Keys {
     pub(crate) fn new(allocated: &Arc<AtomicU64>) -> Self {
-        Self { keys: Vec::new(), grids: Vec::new(), bytes: 0, allocated: Arc::clone(allocated) }
+        Self { keys: Vec::new(), grids: Vec::new(), claim: Claim::new(allocated) }
     }
 
     /// Makes room for all that a frame can need, once for all its draws.
     fn fit(&mut self, extent: &Extent) {
-        let bytes = own_bytes(extent);
-        if bytes > self.bytes {
-            self.allocated.fetch_add(bytes - self.bytes, Ordering::Relaxed);
-            self.bytes = bytes;
-        }
+        self.claim.raise_to(own_bytes(extent));
         let samples = extent.samples as usize;
         self.keys.resize_with(samples.max(self.keys.len()), Key::new);
         self.grids.resize_with(CHUNK, Grid::default);
@@ -119,14 +115,6 @@ impl Target for Merge<'_> {
 
 fn limits(frame: &Frame) -> [i32; 4] {
     [frame.sample_left, frame.sample_right, frame.sample_top, frame.sample_bottom].map(|k| k as i32)
-}
-
-/// Place of a sample in the frame's buffers.
-fn place(frame: &Frame, column: i32, row: i32) -> usize {
-    let (column, row) = (column as u32 - frame.sample_left, row as u32 - frame.sample_top);
-    frame.place_first as usize
-        + row as usize * frame.place_row as usize
-        + column as usize * frame.place_column as usize
 }
 
 /// The last turn, in a band of rows.
@@ -228,7 +216,7 @@ fn merge_one(scene: Scene<'_>, pattern: &Pattern, draw: Draw, grid: &Grid, targe
 ))]
 fn show_all(scene: Scene<'_>, pattern: &Pattern, grids: &[Grid], target: &mut Show<'_>) {
     for (draw, grid) in scene.draws.iter().zip(grids) {
-        let [_, _, top, bottom] = crate::draw::samples_of(scene.frame, *draw);
+        let [_, _, top, bottom] = samples_of(scene.frame, *draw);
         if top < target.limits[3] && bottom > target.limits[2] {
             sample(scene.frame, pattern, (*draw, scene.object_of(*draw).opacity), grid, target);
         }

@@ -230,21 +230,7 @@ impl Stage {
                     ]
                 }
             }
-            Self::Draw => {
-                const {
-                    &[
-                        read::<Frame>("frame"),
-                        read::<Object>("objects"),
-                        read::<Patch>("patches"),
-                        read::<Control>("control"),
-                        read::<Draw>("draws"),
-                        read::<Sample>("behind"),
-                        write::<Sample>("samples"),
-                        write::<Colour>("colours"),
-                    ]
-                }
-            }
-            Self::SortLast => {
+            Self::Draw | Self::SortLast => {
                 const {
                     &[
                         read::<Frame>("frame"),

@@ -3,7 +3,7 @@
 //! Two triangles that share an edge share its snapped vertices; every sample on or beside the edge belongs
 //! to exactly one of them.
 
-use crate::abi::Frame;
+use crate::abi::{Draw, Frame, SUBPIXELS};
 use crate::kernel::project::Vertex;
 use crate::num::{add, clamp, float, max, min, mul, recip, sub};
 
@@ -129,4 +129,28 @@ pub fn samples_between(frame: &Frame, low: i32, high: i32) -> (i32, i32) {
     let field = (1 << frame.pitch_bits) - 1;
     let first = (low - frame.most_offset + field) >> frame.pitch_bits;
     (first, ((high - frame.least_offset) >> frame.pitch_bits) + 1)
+}
+
+/// Columns and rows of samples of the frame that a draw can touch: left, right, top, bottom.
+#[inline(always)]
+#[must_use]
+pub fn samples_of(frame: &Frame, draw: Draw) -> [i32; 4] {
+    let along = |packed: u32, first: u32, end: u32| {
+        let [low, high] = [packed & 0xffff, packed >> 16].map(|pixel| pixel as i32 * SUBPIXELS);
+        let (from, to) = samples_between(frame, low, high - 1);
+        [from.max(first as i32), to.min(end as i32)]
+    };
+    let [left, right] = along(draw.columns, frame.sample_left, frame.sample_right);
+    let [top, bottom] = along(draw.rows, frame.sample_top, frame.sample_bottom);
+    [left, right, top, bottom]
+}
+
+/// Place of a sample in the frame's buffers.
+#[inline(always)]
+#[must_use]
+pub const fn place(frame: &Frame, column: i32, row: i32) -> usize {
+    let (column, row) = (column as u32 - frame.sample_left, row as u32 - frame.sample_top);
+    frame.place_first as usize
+        + row as usize * frame.place_row as usize
+        + column as usize * frame.place_column as usize
 }
