@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use crate::error::{Error, Result, read_text, utf8};
-use crate::scene::BezierPatch;
+use crate::shape::BezierPatch;
 
 const EXPECTED: &str =
     "a .bpt file is: the number of patches, then for each `3 3` and 16 points of 3 numbers";

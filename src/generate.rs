@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::scene::BezierPatch;
+use crate::shape::BezierPatch;
 
 /// What can be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]

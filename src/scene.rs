@@ -11,22 +11,9 @@ use micropoly_core::displacement::{Displacement, Unfit};
 use crate::error::{Error, Result};
 use crate::gregory::GregoryPatch;
 use crate::path::CameraPath;
+use crate::shape::BezierPatch;
 use crate::shot::Blur;
 use crate::{bpt, mscene, scene_file};
-
-/// A bicubic Bézier patch: 16 control points, index `4·i + j` with `i` along u.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BezierPatch {
-    /// Control points in object space.
-    pub points: [[f32; 3]; 16],
-}
-
-impl BezierPatch {
-    /// Lets v run the other way, so that the back becomes the front.
-    pub fn reverse(&mut self) {
-        self.points.chunks_exact_mut(4).for_each(<[_]>::reverse);
-    }
-}
 
 /// Patches that share a transform and a material.
 #[derive(Clone, Debug, PartialEq)]

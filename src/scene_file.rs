@@ -14,7 +14,8 @@ use crate::generate::{self, Generator};
 use crate::gregory::GregoryPatch;
 use crate::image::linear_from_srgb;
 use crate::path::{CameraKey, CameraPath};
-use crate::scene::{BezierPatch, Motion, Scene, SceneObject, rotation};
+use crate::scene::{Motion, Scene, SceneObject, rotation};
+use crate::shape::BezierPatch;
 use crate::shot::{Blur, DEFAULT_SENSOR, Lens};
 
 /// Most patches that the generators of a scene may make together.

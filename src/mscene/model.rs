@@ -3,7 +3,7 @@
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 
 use crate::gregory::GregoryPatch;
-use crate::scene::BezierPatch;
+use crate::shape::BezierPatch;
 
 /// All of a file.
 #[derive(Clone, Debug, PartialEq)]

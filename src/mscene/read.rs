@@ -12,7 +12,7 @@ use super::mscene_capnp::{camera, light_source, mesh, object, quaternion, scene,
 use super::place::Place;
 use crate::error::{Error, Result};
 use crate::gregory::GregoryPatch;
-use crate::scene::BezierPatch;
+use crate::shape::BezierPatch;
 
 const DAMAGED: &str = "copy or export the file again: it is damaged or cut short, or not a .mscene file";
 
