@@ -35,6 +35,7 @@ mod passes;
 mod path;
 mod picture;
 pub mod rasterising;
+mod records;
 mod render;
 mod scene;
 pub mod scene_file;

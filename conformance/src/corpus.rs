@@ -27,6 +27,7 @@ use micropoly_core::kernel::sample::{Band, sample as sample_grid};
 use micropoly_core::kernel::scan::scan;
 use micropoly_core::known::question;
 use micropoly_core::patch::gregory::INNER;
+use micropoly_core::patch::instance::{Instance, instance};
 use micropoly_core::pattern::{Region, Samples, Window, tuples};
 use micropoly_core::reconstruction::{Filter, Kernel, MAX_TAPS};
 use micropoly_core::stage::{Extent, Items, Stage};
@@ -565,8 +566,8 @@ fn rendered(
     let (pattern, mut grid) = (Pattern::new(frame), Box::new(Grid::default()));
     let mut band = Band::whole(frame, &mut samples, &mut colours);
     for draw in draws {
-        let object = &objects[patches[draw.patch_id as usize].object as usize];
-        dice_any(frame, patches, object, *draw, &mut grid);
+        let Instance { record, object } = instance(frame, objects, patches, draw.patch_id);
+        dice_any(frame, patches, record, &objects[object as usize], *draw, &mut grid);
         sample_grid(frame, &pattern, (*draw, 1.0), &grid, &mut band);
     }
     samples
