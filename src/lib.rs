@@ -49,7 +49,9 @@ pub use micropoly_backend_wgpu as backend_wgpu;
 pub use micropoly_core as core;
 
 pub use crate::backend::{Backend, render, render_frames};
-pub use crate::core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile, Rasteriser, Shading};
+pub use crate::core::camera::{
+    Borders, Camera, FrameOptions, Light, Material, Oracle, Profile, Rasteriser, Shading,
+};
 pub use crate::core::pattern::{Samples, Window};
 pub use crate::core::reconstruction::{Filter, Kernel};
 pub use crate::core::render::Counts;

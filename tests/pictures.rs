@@ -6,9 +6,8 @@
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly::core::camera::{Camera, Light, Material};
 use micropoly::{
-    Backend, Batch, BezierPatch, Blur, Film, Filter, FrameOptions, Kernel, Lens, Motion, Rasteriser,
-    RenderOptions, Rendering, Samples, Scene, SceneObject, Shading, Shape, Shot, Window, render,
-    render_frames,
+    Backend, Batch, BezierPatch, Blur, Film, Filter, FrameOptions, Kernel, Lens, Rasteriser, RenderOptions,
+    Rendering, Samples, Scene, SceneObject, Shading, Shape, Shot, Window, render, render_frames,
 };
 
 fn options(samples: Samples) -> RenderOptions {
