@@ -104,6 +104,9 @@ shared_constants! {
     const JOINED_SPLITS: u32 = PARAM_BITS - PLACE_BITS - 1;
     /// A quarter.
     const QUARTER: f32 = 0.25;
+    /// Lines have to be so much flatter than surfaces. Where a line has its steps already, vertices stray along it, and
+    /// what they enclose is never flatter than the line: it must be flat enough all the same, at twice what it is off.
+    const LINE_SHARE: f32 = 2.5;
     /// Smallest squared length of a vector that is normalised for shading.
     const SHADE_TINY: f32 = 1.0e-30;
 

@@ -5,7 +5,7 @@
 //! ours are found before it, in eye space, so a plane is flat however it is seen. Lines are compared with their chords,
 //! by numbers that both neighbours have.
 
-use crate::abi::{Frame, QUARTER, Surface, THIRD};
+use crate::abi::{Frame, LINE_SHARE, QUARTER, Surface, THIRD};
 use crate::kernel::bound::{distance, measured_point, point_if_cut};
 use crate::kernel::sides::Lengths;
 use crate::num::{add, max, mul};
@@ -33,18 +33,18 @@ pub(super) fn flatness(view: View<'_>, part: &Net) -> Lengths {
     }
     let mut sides = [0.0; 4];
     for (side, at) in sides.iter_mut().zip(SIDE_POINTS) {
-        *side = max(off[at[1]], off[at[2]]);
+        *side = mul(LINE_SHARE, max(off[at[1]], off[at[2]]));
     }
     let most = off.iter().fold(0.0, |most, off| max(most, *off));
     let whole = add(most, twist(view, part));
-    Lengths { u: whole, v: whole, sides }
+    Lengths { u: whole, v: whole, sides }.with_sides(sides)
 }
 
 /// How far a line is from its chord.
 #[inline(always)]
 pub(super) fn line_flatness(view: View<'_>, line: &Line) -> f32 {
     let [a, b, c, d] = *line;
-    max(between(view, b, third(a, d)), between(view, c, third(d, a)))
+    mul(LINE_SHARE, max(between(view, b, third(a, d)), between(view, c, third(d, a))))
 }
 
 /// How far a line inside a Gregory patch is from its chord, from five points of it, a quarter of it apart. Between them it
@@ -55,7 +55,7 @@ pub(super) fn chord_flatness(view: View<'_>, points: &[[f32; 3]; 5]) -> f32 {
     let half = middle(a, e);
     let outer = max(between(view, b, middle(a, half)), between(view, d, middle(e, half)));
     let most = max(outer, between(view, c, half));
-    add(most, mul(most, QUARTER))
+    mul(LINE_SHARE, add(most, mul(most, QUARTER)))
 }
 
 /// What of a surface has to be flat: all that its vertices enclose, those too that have strayed from it.
