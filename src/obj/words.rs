@@ -38,7 +38,7 @@ impl<'a> Words<'a> {
 
     /// Goes on to the next statement, whatever is left of this one, and gives its first word.
     pub(super) fn statement(&mut self) -> Option<&'a [u8]> {
-        while self.next().is_some() {}
+        while self.at > 0 && self.next().is_some() {}
         loop {
             self.start = self.line;
             if let Some(word) = self.next() {
