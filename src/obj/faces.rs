@@ -51,7 +51,9 @@ impl Faces {
         let count = self.face.len();
         if count < 3 {
             let problem = format!("a face with {count} of 3 or more corners");
-            return Err(words.wrong_statement(problem, "remove the face, or write all its corners on one line"));
+            return Err(
+                words.wrong_statement(problem, "remove the face, or write all its corners on one line")
+            );
         }
         match self.repeated() {
             None => Ok(()),
@@ -87,7 +89,11 @@ impl Faces {
         match self.bare {
             None => (cage.texture, cage.texture_corners) = (vertices.texture, self.texture_corners),
             Some(line) if !self.texture_corners.is_empty() => {
-                notes.add("vt", "other faces have texture coordinates, this one has not: they are not used", line);
+                notes.add(
+                    "vt",
+                    "other faces have texture coordinates, this one has not: they are not used",
+                    line,
+                );
             }
             Some(_) => {}
         }

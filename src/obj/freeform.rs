@@ -103,7 +103,8 @@ impl Elements {
         while let Some(word) = words.next() {
             let degree = text(word).and_then(|text| text.parse().ok()).filter(|_| self.degree.len() < 2);
             let problem = || format!("`{}` stands where a degree should be", shown(word));
-            self.degree.push(degree.ok_or_else(|| words.wrong(problem(), "write `deg U V`, such as `deg 3 3`"))?);
+            self.degree
+                .push(degree.ok_or_else(|| words.wrong(problem(), "write `deg U V`, such as `deg 3 3`"))?);
         }
         Ok(())
     }
@@ -154,7 +155,8 @@ impl Elements {
         if degree.iter().all(|degree| (1..=MAX_DEGREE).contains(degree)) {
             return Ok(degree);
         }
-        let problem = format!("the surface has degrees {} and {}; only 1 to 3 can be drawn", degree[0], degree[1]);
+        let problem =
+            format!("the surface has degrees {} and {}; only 1 to 3 can be drawn", degree[0], degree[1]);
         Err(words.wrong_statement(problem, "convert it to degree 3"))
     }
 
@@ -200,7 +202,12 @@ impl Elements {
 impl Open {
     fn unended(&self, words: &Words<'_>) -> Error {
         let problem = "the curve or surface that starts here has no `end`";
-        Error::format(words.path(), self.line, problem, "put `end` on a line of its own behind its last `parm`")
+        Error::format(
+            words.path(),
+            self.line,
+            problem,
+            "put `end` on a line of its own behind its last `parm`",
+        )
     }
 }
 
@@ -234,7 +241,8 @@ fn check_parameters(words: &Words<'_>, surface: &FreeForm, direction: usize) -> 
     let parameters = &surface.knots[direction];
     let Some(at) = first_descent(surface.is_bezier, parameters) else { return Ok(()) };
     let (name, value, before) = (DIRECTIONS[direction], parameters[at], parameters[at - 1]);
-    let must = if surface.is_bezier { "each must be larger than the one before" } else { "they must not descend" };
+    let must =
+        if surface.is_bezier { "each must be larger than the one before" } else { "they must not descend" };
     let problem = format!("parameter {} of `parm {name}` is {value}, after {before}: {must}", at + 1);
     Err(words.wrong_statement(problem, "put the parameters in order"))
 }
@@ -246,8 +254,14 @@ fn check_counts(words: &Words<'_>, surface: &FreeForm, found: usize) -> Result<[
         let (degree, given) = (surface.degree[k], surface.knots[k].len());
         let Some(count) = point_count(surface.is_bezier, degree, given) else {
             let least = if surface.is_bezier { 2 } else { 2 * degree + 2 };
-            let problem = format!("the surface has {given} parameters along {name}, and needs {least} or more");
-            return Err(wrong(words, surface, problem, &format!("put `parm {name} ...` between `surf` and `end`")));
+            let problem =
+                format!("the surface has {given} parameters along {name}, and needs {least} or more");
+            return Err(wrong(
+                words,
+                surface,
+                problem,
+                &format!("put `parm {name} ...` between `surf` and `end`"),
+            ));
         };
         counts[k] = count;
     }
@@ -255,12 +269,23 @@ fn check_counts(words: &Words<'_>, surface: &FreeForm, found: usize) -> Result<[
     if u.checked_mul(v) == Some(found) {
         return Ok(counts);
     }
-    let problem = format!("the surface has {found} control points; its degrees and parameters ask for {u} times {v}");
-    Err(wrong(words, surface, problem, "check `surf`, `deg` and `parm`: one of them does not go with the others"))
+    let problem =
+        format!("the surface has {found} control points; its degrees and parameters ask for {u} times {v}");
+    Err(wrong(
+        words,
+        surface,
+        problem,
+        "check `surf`, `deg` and `parm`: one of them does not go with the others",
+    ))
 }
 
 /// The points in our order, v running fastest; in the file it is u.
-fn control_points(surface: &FreeForm, counts: [usize; 2], named: &[u32], vertices: &Vertices) -> Vec<[f64; 4]> {
+fn control_points(
+    surface: &FreeForm,
+    counts: [usize; 2],
+    named: &[u32],
+    vertices: &Vertices,
+) -> Vec<[f64; 4]> {
     let [count_u, count_v] = counts;
     let places = (0..count_u).flat_map(|i| (0..count_v).map(move |j| j * count_u + i));
     let point = |place: usize| {

@@ -30,7 +30,13 @@ impl Notes {
         }
         match not_drawn(keyword) {
             Some(text) => self.add(&shown(keyword), text, words.start()),
-            None => return self.add_unknown(shown(keyword), "this statement is not known and is passed over", words),
+            None => {
+                return self.add_unknown(
+                    shown(keyword),
+                    "this statement is not known and is passed over",
+                    words,
+                );
+            }
         }
         Ok(())
     }

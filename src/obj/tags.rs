@@ -30,7 +30,9 @@ impl Tags {
             Some(b"hole") => self.read_hole(words),
             Some(b"interpolateboundary") => self.read_boundary(words),
             Some(name) => notes.pass_over_tag(name, words),
-            None => Err(words.wrong_statement("a tag without a name", "write `t crease 2/1/0 A B SHARPNESS`")),
+            None => {
+                Err(words.wrong_statement("a tag without a name", "write `t crease 2/1/0 A B SHARPNESS`"))
+            }
         }
     }
 
@@ -87,14 +89,24 @@ impl Tags {
             ([rule], true) => {
                 return Err(words.wrong_statement(format!("there is no boundary rule {rule}"), FORM));
             }
-            _ => return Err(mismatch(words, "interpolateboundary", "rules", integers.len(), numbers.len(), FORM)),
+            _ => {
+                return Err(mismatch(
+                    words,
+                    "interpolateboundary",
+                    "rules",
+                    integers.len(),
+                    numbers.len(),
+                    FORM,
+                ));
+            }
         };
         Ok(())
     }
 
     /// Do all vertices and faces exist that are named?
     pub(super) fn check(&self, words: &Words<'_>, vertices: usize, faces: usize) -> Result<()> {
-        let creases = self.creases.iter().flat_map(|&(line, crease)| crease.vertices.map(|vertex| (line, vertex)));
+        let creases =
+            self.creases.iter().flat_map(|&(line, crease)| crease.vertices.map(|vertex| (line, vertex)));
         let corners = self.corners.iter().map(|&(line, (vertex, _))| (line, vertex));
         check_indices(words, "crease", "vertex", creases, vertices)?;
         check_indices(words, "corner", "vertex", corners, vertices)?;
@@ -133,7 +145,12 @@ fn check_indices(
         None => Ok(()),
         Some((line, index)) => {
             let problem = format!("the tag `{tag}` names {kind} {index}, but the file has {count}");
-            Err(Error::format(words.path(), line, problem, "check the index: in tags they are counted from 0"))
+            Err(Error::format(
+                words.path(),
+                line,
+                problem,
+                "check the index: in tags they are counted from 0",
+            ))
         }
     }
 }
@@ -157,7 +174,8 @@ fn arguments(words: &mut Words<'_>, form: &str) -> Result<Arguments> {
     match words.next() {
         None => Ok(read),
         Some(word) => {
-            let problem = format!("`{}` stands behind the values that the tag's counts announce", shown(word));
+            let problem =
+                format!("`{}` stands behind the values that the tag's counts announce", shown(word));
             Err(words.wrong_statement(problem, form))
         }
     }

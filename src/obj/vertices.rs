@@ -127,7 +127,8 @@ impl Vertices {
         let Some(number) = text(part).and_then(|text| text.parse::<i64>().ok()) else {
             return Err(words.wrong(format!("`{}` stands where a corner should be", shown(word)), FORMS));
         };
-        let index = if number < 0 { number.checked_add_unsigned(count as u64) } else { number.checked_sub(1) };
+        let index =
+            if number < 0 { number.checked_add_unsigned(count as u64) } else { number.checked_sub(1) };
         match index.and_then(|index| u32::try_from(index).ok()) {
             Some(index) if (index as usize) < count => Ok(index),
             _ => Err(outside(words, word, kind, number, count)),
@@ -144,12 +145,15 @@ fn outside(words: &Words<'_>, word: &[u8], kind: usize, number: i64, count: usiz
             format!("`{shown}` names {name} 0"),
             "indices start at 1; negative ones count back from the last one, which is -1",
         ),
-        1.. => words
-            .wrong(format!("`{shown}` names {name} {number}, but only {count} stand before this line"), remedy),
+        1.. => words.wrong(
+            format!("`{shown}` names {name} {number}, but only {count} stand before this line"),
+            remedy,
+        ),
         _ => words.wrong(
-            format!("`{shown}` counts {} back from the last {name}, but only {count} stand before this line", {
-                number.unsigned_abs()
-            }),
+            format!(
+                "`{shown}` counts {} back from the last {name}, but only {count} stand before this line",
+                { number.unsigned_abs() }
+            ),
             remedy,
         ),
     }

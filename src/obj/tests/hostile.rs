@@ -18,7 +18,20 @@ fn seeds() -> Vec<Vec<u8>> {
 /// Some bytes changed, removed, repeated or replaced by what may surprise a reader.
 fn mutate(bytes: &mut Vec<u8>, random: &mut fastrand::Rng) {
     const PIECES: [&[u8]; 14] = [
-        b"-1", b"0", b"\\\n", b"/", b"//", b"nan", b"1e999", b"99999999999", b"\r", b"#", b"\xff", b"end\n", b" ", b"t crease 9/9/0 ",
+        b"-1",
+        b"0",
+        b"\\\n",
+        b"/",
+        b"//",
+        b"nan",
+        b"1e999",
+        b"99999999999",
+        b"\r",
+        b"#",
+        b"\xff",
+        b"end\n",
+        b" ",
+        b"t crease 9/9/0 ",
     ];
     for _ in 0..random.usize(1..8) {
         let at = random.usize(..=bytes.len());

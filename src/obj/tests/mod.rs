@@ -1,5 +1,6 @@
 //! What OBJ files may hold, and what is said of those that are wrong.
 
+mod cages;
 mod hostile;
 mod polygons;
 mod published;

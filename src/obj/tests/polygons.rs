@@ -18,7 +18,8 @@ fn all_ways_of_writing_a_corner_give_the_same_face() {
 
 #[test]
 fn negative_indices_count_back_from_the_line_where_they_stand() {
-    let text = format!("{SQUARE}f -4 -3 -2 -1\nv 9 9 9\nf -5 -4 -1\nvt 0 0\nvn 1 0 0\nf -5/-1/-1 -4/1/1 -3/1/-1");
+    let text =
+        format!("{SQUARE}f -4 -3 -2 -1\nv 9 9 9\nf -5 -4 -1\nvt 0 0\nvn 1 0 0\nf -5/-1/-1 -4/1/1 -3/1/-1");
     let cage = cage(text);
     assert_eq!(cage.corners, [0, 1, 2, 3, 0, 1, 4, 0, 1, 2]);
     assert_eq!(cage.face_lines, [5, 7, 10]);
@@ -87,11 +88,14 @@ fn texture_coordinates_of_some_faces_only_are_told_and_not_used() {
 #[test]
 fn what_is_not_drawn_is_told_once_a_kind() {
     let obj = read(format!("{SQUARE}l 1 2\np 1\nl 2 3\nf 1 2 3\nwobble 1 2\nl 1 4\n"));
-    assert_eq!(obj.warnings, [
-        "x.obj:5: `l`: lines are not drawn (3 times)",
-        "x.obj:6: `p`: points are not drawn",
-        "x.obj:9: `wobble`: this statement is not known and is passed over",
-    ]);
+    assert_eq!(
+        obj.warnings,
+        [
+            "x.obj:5: `l`: lines are not drawn (3 times)",
+            "x.obj:6: `p`: points are not drawn",
+            "x.obj:9: `wobble`: this statement is not known and is passed over",
+        ]
+    );
 }
 
 #[test]

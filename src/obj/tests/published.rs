@@ -20,7 +20,9 @@ fn cage(test: &str, name: &str) -> Option<Cage> {
 
 #[test]
 fn spot_has_triangles_quads_and_pentagons() {
-    let Some(spot) = cage("spot_has_triangles_quads_and_pentagons", "models/spot_control_mesh.obj") else { return };
+    let Some(spot) = cage("spot_has_triangles_quads_and_pentagons", "models/spot_control_mesh.obj") else {
+        return;
+    };
     assert_eq!((spot.positions.len(), spot.face_sizes.len()), (188, 180));
     assert!([3, 4, 5].iter().all(|size| spot.face_sizes.contains(size)));
     assert_eq!(spot.texture_corners.len(), spot.corners.len());
@@ -35,7 +37,9 @@ fn the_bunny_is_all_triangles() {
 
 #[test]
 fn the_creased_cube_keeps_its_tags() {
-    let Some(cube) = cage("the_creased_cube_keeps_its_tags", "catmull-clark/cube_crease_semi.obj") else { return };
+    let Some(cube) = cage("the_creased_cube_keeps_its_tags", "catmull-clark/cube_crease_semi.obj") else {
+        return;
+    };
     assert_eq!((cube.creases.len(), cube.sharp_vertices), (5, vec![(0, 3.0)]));
     assert_eq!(cube.creases[4].vertices, [0, 4]);
 }

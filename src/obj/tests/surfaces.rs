@@ -12,7 +12,10 @@ fn points_are_turned_so_that_v_runs_fastest() {
     assert!(obj.cage.is_none() && obj.warnings.is_empty());
     let surface = &obj.surfaces[0];
     assert_eq!((surface.degree, surface.counts(), surface.line), ([2, 1], [3, 2], 9));
-    assert_eq!((surface.is_bezier, surface.is_rational, surface.range), (true, false, [[0.0, 1.0], [0.0, 2.0]]));
+    assert_eq!(
+        (surface.is_bezier, surface.is_rational, surface.range),
+        (true, false, [[0.0, 1.0], [0.0, 2.0]])
+    );
     for i in 0..3 {
         for j in 0..2 {
             assert_eq!(surface.points[i * 2 + j], [i as f64, j as f64, 0.0, 1.0]);
@@ -42,7 +45,8 @@ fn control_points_are_named_as_corners_of_faces_are() {
 fn pieces_and_knots_say_how_many_points_there_are() {
     let net: String = (0..7 * 5).map(|i| format!("v {i} 0 0\n")).collect();
     let points: String = (1..=35).map(|i| format!(" {i}")).collect();
-    let text = format!("{net}cstype bezier\ndeg 3 2\nsurf 0 2 0 1{points}\nparm u 0 1 2\nparm v 0 .5 1\nend\n");
+    let text =
+        format!("{net}cstype bezier\ndeg 3 2\nsurf 0 2 0 1{points}\nparm u 0 1 2\nparm v 0 .5 1\nend\n");
     let obj = read(text);
     assert_eq!(obj.surfaces[0].counts(), [7, 5]);
     let u = vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0];
@@ -69,15 +73,18 @@ fn trims_and_curves_are_told_once() {
     let curves = "cstype taylor\nvp 0 0\ncurv 0 1 1 2 3\nparm u 0 1 2\nend\ncurv2 1 1\nparm u 0 1\nend\ncon 1 0 1 1 1 0 1 1\n";
     let obj = read(format!("{NET}{}{curves}", BEZIER.replace("end\n", trims)));
     assert_eq!(obj.surfaces.len(), 1);
-    assert_eq!(obj.warnings, [
-        "x.obj:12: `trim`: surfaces are drawn as a whole, not trimmed (2 times)",
-        "x.obj:13: `hole`: surfaces are drawn as a whole, not trimmed",
-        "x.obj:15: `sp`: curves and points that a surface should contain are not used",
-        "x.obj:16: `scrv`: curves and points that a surface should contain are not used",
-        "x.obj:20: `curv`: curves are not drawn",
-        "x.obj:23: `curv2`: curves are not drawn",
-        "x.obj:26: `con`: surfaces are not joined",
-    ]);
+    assert_eq!(
+        obj.warnings,
+        [
+            "x.obj:12: `trim`: surfaces are drawn as a whole, not trimmed (2 times)",
+            "x.obj:13: `hole`: surfaces are drawn as a whole, not trimmed",
+            "x.obj:15: `sp`: curves and points that a surface should contain are not used",
+            "x.obj:16: `scrv`: curves and points that a surface should contain are not used",
+            "x.obj:20: `curv`: curves are not drawn",
+            "x.obj:23: `curv2`: curves are not drawn",
+            "x.obj:26: `con`: surfaces are not joined",
+        ]
+    );
 }
 
 #[test]
@@ -109,7 +116,11 @@ fn errors_of_surfaces_name_the_line() {
         (changed("deg 2 1", "end"), 8, "`end` stands outside"),
         (changed("bezier", "bspline"), 9, "2 parameters along u, and needs 6"),
         (changed("bezier", "rat bezier").replace(".5", "0"), 9, "has weight 0"),
-        (changed("bezier", "bspline").replace("u 0 1", "u 0 1 0"), 10, "parameter 3 of `parm u` is 0, after 1"),
+        (
+            changed("bezier", "bspline").replace("u 0 1", "u 0 1 0"),
+            10,
+            "parameter 3 of `parm u` is 0, after 1",
+        ),
     ] {
         assert_refused([(text.as_str(), line, part)]);
     }

@@ -5,21 +5,20 @@ use crate::cage::{Boundary, Crease};
 
 #[test]
 fn creases_have_one_sharpness_or_one_each() {
-    let text = format!("t crease 2/1/0 0 1 10\n{SQUARE}f 1 2 3 4\nt crease 4/1/0 1 2 2 3 .5\nt crease 4/2/0 3 0 2 1 1 2\n");
+    let text = format!(
+        "t crease 2/1/0 0 1 10\n{SQUARE}f 1 2 3 4\nt crease 4/1/0 1 2 2 3 .5\nt crease 4/2/0 3 0 2 1 1 2\n"
+    );
     let crease = |a, b, sharpness| Crease { vertices: [a, b], sharpness };
-    let expected = [
-        crease(0, 1, 10.0),
-        crease(1, 2, 0.5),
-        crease(2, 3, 0.5),
-        crease(3, 0, 1.0),
-        crease(2, 1, 2.0),
-    ];
+    let expected =
+        [crease(0, 1, 10.0), crease(1, 2, 0.5), crease(2, 3, 0.5), crease(3, 0, 1.0), crease(2, 1, 2.0)];
     assert_eq!(cage(text).creases, expected);
 }
 
 #[test]
 fn corners_and_holes_are_read() {
-    let cage = cage(format!("{SQUARE}f 1 2 3\nf 1 3 4\nt corner 1/1/0 3 2.5\nt corner 2/2/0 0 1 3 4\nt hole 2/0/0 1 0"));
+    let cage = cage(format!(
+        "{SQUARE}f 1 2 3\nf 1 3 4\nt corner 1/1/0 3 2.5\nt corner 2/2/0 0 1 3 4\nt hole 2/0/0 1 0"
+    ));
     assert_eq!(cage.sharp_vertices, [(3, 2.5), (0, 3.0), (1, 4.0)]);
     assert_eq!(cage.holes, [1, 0]);
 }
@@ -36,10 +35,13 @@ fn boundary_rules_are_numbered_as_in_renderman() {
 #[test]
 fn tags_that_are_not_used_are_told_once_by_name() {
     let tags = "t creasemethod 0/0/1 chaikin\nt facevaryinginterpolateboundary 1/0/0 1\nt creasemethod 0/0/1 normal\n";
-    assert_eq!(read(format!("{SQUARE}f 1 2 3\n{tags}")).warnings, [
-        "x.obj:6: `t creasemethod`: this tag is not used (2 times)",
-        "x.obj:7: `t facevaryinginterpolateboundary`: this tag is not used",
-    ]);
+    assert_eq!(
+        read(format!("{SQUARE}f 1 2 3\n{tags}")).warnings,
+        [
+            "x.obj:6: `t creasemethod`: this tag is not used (2 times)",
+            "x.obj:7: `t facevaryinginterpolateboundary`: this tag is not used",
+        ]
+    );
 }
 
 #[test]
