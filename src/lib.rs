@@ -31,6 +31,7 @@ mod image;
 pub mod looks;
 pub mod mesh;
 pub mod mscene;
+pub mod nurbs;
 mod passes;
 mod path;
 mod picture;
