@@ -35,6 +35,7 @@ pub mod nurbs;
 mod passes;
 mod path;
 mod picture;
+pub mod quadric;
 pub mod rasterising;
 mod render;
 mod scene;
