@@ -20,6 +20,7 @@ pub mod bench;
 pub mod bpt;
 pub mod cage;
 mod canvas;
+pub mod curve;
 pub mod devices;
 pub mod dicing;
 pub mod diff;
