@@ -36,6 +36,7 @@ pub mod nurbs;
 mod passes;
 mod path;
 mod picture;
+pub mod polygon;
 pub mod quadric;
 pub mod rasterising;
 mod render;
