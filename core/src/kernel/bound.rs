@@ -265,12 +265,12 @@ impl<'a> Hull<'a> {
         self.with_more(view, own)
     }
 
-    /// With what a surface encloses beyond itself: vertices may be anywhere in that.
+    /// With what is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it.
     #[inline(always)]
     fn with_more(&self, view: View<'_>, own: Lengths) -> Lengths {
         let Some(more) = &self.more else { return own };
         let most = mul(2.0, flatness(view, more).u);
-        Lengths { u: max(own.u, most), v: max(own.v, most), ..own }
+        Lengths { u: most, v: most, ..own }.with_sides(own.sides)
     }
 
     /// Lengths along u and along v, in pixels, of a surface that crosses the near plane: as if all of it were there, and

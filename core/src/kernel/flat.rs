@@ -58,18 +58,11 @@ pub(super) fn chord_flatness(view: View<'_>, points: &[[f32; 3]; 5]) -> f32 {
     mul(LINE_SHARE, add(most, mul(most, QUARTER)))
 }
 
-/// What of a surface has to be flat: all that its vertices enclose, those too that have strayed from it.
+/// What of a patch has to be flat for a surface whose corners have strayed: all that they enclose.
 #[inline(always)]
-pub(super) const fn enclosed(surface: Surface) -> [[u32; 2]; 2] {
-    let (mut low, high) =
-        ([surface.u, surface.v], [surface.u + surface.u_size(), surface.v + surface.v_size()]);
-    let mut corner = 0;
-    while corner < 4 {
-        let at = surface.corner(corner);
-        low = [if at[0] < low[0] { at[0] } else { low[0] }, if at[1] < low[1] { at[1] } else { low[1] }];
-        corner += 1;
-    }
-    [[low[0], high[0]], [low[1], high[1]]]
+pub(super) fn enclosed(surface: Surface) -> [[u32; 2]; 2] {
+    let [a, b, c, d] = [0, 1, 2, 3].map(|corner| surface.corner(corner));
+    [0, 1].map(|k| [a[k].min(b[k]).min(c[k].min(d[k])), a[k].max(b[k]).max(c[k].max(d[k]))])
 }
 
 /// Control points of the bilinear patch through the corners, as a bicubic one.
