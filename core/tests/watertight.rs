@@ -230,7 +230,7 @@ fn halve_some(random: &mut fastrand::Rng, patches: &mut Vec<Patch>) -> usize {
 #[test]
 fn closed_meshes_stay_closed_where_sides_are_halves_of_others() {
     let (mut random, mut halved, mut joined) = (random(5), 0, 0);
-    for round in 0..160 {
+    for round in 0..48 {
         let (n, rough) = ([2, 3][round % 2], [0.05, 0.3, 1.0][round % 3]);
         let mut patches = closed(&mut random, n, rough, false);
         halved += halve_some(&mut random, &mut patches);
@@ -253,7 +253,7 @@ fn closed_meshes_stay_closed_where_sides_are_halves_of_others() {
             joined += self::tally(&frame, &object, &patches).open;
         }
     }
-    assert!(halved > 300 && joined > 100, "{halved} halved, {joined} open edges if they were not joined");
+    assert!(halved > 90 && joined > 100, "{halved} halved, {joined} open edges if they were not joined");
 }
 
 #[test]
