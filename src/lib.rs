@@ -36,6 +36,7 @@ mod path;
 mod picture;
 pub mod rasterising;
 mod render;
+pub mod rib;
 mod scene;
 pub mod scene_file;
 mod shape;
