@@ -1,6 +1,6 @@
 //! Requests that say how a scene is seen: camera, image and what is behind everything.
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 use super::camera::{RibCamera, RibLens};
 use super::place::quoted;
@@ -22,11 +22,14 @@ pub(super) struct View {
     half_height: Option<f64>,
     near: Option<f64>,
     lens: Option<RibLens>,
+    /// What is done to the image: stretched, mirrored or turned.
+    screen: DAffine3,
 }
 
 impl View {
     /// The camera, if it is one of perspective.
-    pub(super) fn camera(&self, from_world: DAffine3) -> Option<RibCamera> {
+    pub(super) fn camera(&self, to_camera: DAffine3) -> Option<RibCamera> {
+        let from_world = self.screen * to_camera;
         let Self { resolution, half_height, near, lens, .. } = *self;
         let aspect = self.frame_aspect.or(self.image_aspect);
         self.fov.map(|fov| RibCamera { from_world, fov, aspect, resolution, half_height, near, lens })
@@ -53,6 +56,7 @@ impl Reader {
     }
 
     fn projection(&mut self, request: &mut Request) -> Result<()> {
+        self.begin_camera(request);
         let kind = request.text("kind")?;
         let mut parameters = self.parameters(request)?;
         match kind.as_str() {
@@ -72,6 +76,21 @@ impl Reader {
         }
         self.leave(request, parameters);
         Ok(())
+    }
+
+    /// What stands before the projection happens to the image, and camera space begins behind it.
+    fn begin_camera(&mut self, request: &Request) {
+        let screen = std::mem::take(&mut self.attributes.transform);
+        let is_flat = screen.translation == DVec3::ZERO
+            && screen.matrix3.row(2) == DVec3::Z
+            && screen.matrix3.col(2) == DVec3::Z;
+        if is_flat {
+            self.view.screen = screen;
+        } else {
+            let what =
+                "transforms before `Projection` that move the image, or z, are not supported and ignored";
+            self.warnings.add(&request.place, what);
+        }
     }
 
     /// Width, height and aspect of a pixel; what is negative is left as it is.
@@ -177,7 +196,7 @@ mod tests {
     const BALL: &str = "WorldBegin\nSphere 1 -1 1 360\nWorldEnd";
 
     fn camera(requests: &str) -> RibCamera {
-        let scene = read(&format!("{requests}\nProjection \"perspective\" \"fov\" [40]\n{BALL}"));
+        let scene = read(&format!("Projection \"perspective\" \"fov\" [40]\n{requests}\n{BALL}"));
         scene.camera.expect("a camera")
     }
 
@@ -189,6 +208,18 @@ mod tests {
         assert_eq!((camera.aspect, camera.near), (Some(640.0 / 480.0), Some(0.1)));
         assert_eq!(camera.lens, Some(RibLens { fstop: 2.8, focal_length: 0.05, focus: 4.0 }));
         assert_eq!(camera.camera().fov, camera.vertical_fov());
+    }
+
+    #[test]
+    fn transforms_before_the_projection_happen_to_the_image() {
+        let camera = |before: &str| {
+            let scene = read(&format!("{before} Projection \"perspective\" Translate 0 0 5 {BALL}"));
+            (scene.camera.expect("a camera").from_world, scene.warnings.len())
+        };
+        let at = DVec3::new(1.0, 2.0, 3.0);
+        assert_eq!(camera("Scale -1 1 1").0.transform_point3(at), DVec3::new(-1.0, 2.0, 8.0));
+        assert_eq!(camera("Translate 0 0 1"), camera("Rotate 90 1 0 0"));
+        assert_eq!(camera("Translate 0 0 1"), (DAffine3::from_translation(DVec3::new(0.0, 0.0, 5.0)), 1));
     }
 
     #[test]
