@@ -51,7 +51,7 @@ pub struct HalfSide {
     pub is_second: bool,
 }
 
-/// Patches of all kinds.
+/// Patches of all kinds; in this order they are numbered.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shape {
     /// Bézier patches.
@@ -62,4 +62,78 @@ pub struct Shape {
     pub gregory: Vec<GregoryPatch>,
     /// Which sides of Bézier patches are halves of others.
     pub halves: Vec<HalfSide>,
+}
+
+impl Shape {
+    /// Of Bézier patches.
+    #[must_use]
+    pub fn of_bezier(bezier: Vec<BezierPatch>) -> Self {
+        Self { bezier, ..Self::default() }
+    }
+
+    /// Of Gregory patches.
+    #[must_use]
+    pub fn of_gregory(gregory: Vec<GregoryPatch>) -> Self {
+        Self { gregory, ..Self::default() }
+    }
+
+    /// Of rational patches: as Bézier patches if no weight says otherwise. All patches of a shape are of one kind, since
+    /// borders between two kinds would differ in rounding.
+    #[must_use]
+    pub fn of_rational(rational: Vec<RationalPatch>) -> Self {
+        if rational.iter().any(|patch| patch.weights != [1.0; 16]) {
+            return Self { rational, ..Self::default() };
+        }
+        Self::of_bezier(rational.into_iter().map(|patch| BezierPatch { points: patch.points }).collect())
+    }
+
+    /// Number of its patches.
+    #[must_use]
+    pub fn patch_count(&self) -> usize {
+        self.bezier.len() + self.rational.len() + self.gregory.len()
+    }
+
+    /// Records that patches of some kinds need besides their own.
+    pub(crate) fn extra_count(&self) -> usize {
+        self.rational.len() + self.gregory.len()
+    }
+
+    /// Control points of all patches.
+    pub fn points(&self) -> impl Iterator<Item = [f32; 3]> {
+        let bezier = self.bezier.iter().flat_map(|patch| patch.points);
+        let rational = self.rational.iter().flat_map(|patch| patch.points);
+        bezier.chain(rational).chain(self.gregory.iter().flat_map(|patch| patch.points))
+    }
+
+    /// Are all weights above 0, and what halves name there?
+    pub(crate) fn is_sound(&self) -> bool {
+        let weights = self.rational.iter().flat_map(|patch| patch.weights);
+        let count = self.bezier.len();
+        weights.into_iter().all(|weight| weight > 0.0 && weight.is_finite())
+            && self.halves.iter().all(|half| {
+                (half.fine as usize) < count
+                    && (half.coarse as usize) < count
+                    && half.fine_side < 4
+                    && half.coarse_side < 4
+            })
+    }
+
+    /// Lets v run the other way in all patches, so that the back becomes the front.
+    pub fn reverse(&mut self) {
+        self.bezier.iter_mut().for_each(BezierPatch::reverse);
+        self.rational.iter_mut().for_each(RationalPatch::reverse);
+        self.gregory.iter_mut().for_each(GregoryPatch::reverse);
+        self.halves.iter_mut().for_each(HalfSide::reverse);
+    }
+}
+
+impl HalfSide {
+    /// Sides of constant v change places; along the others, parameters run the other way.
+    fn reverse(&mut self) {
+        let turned = |side: u8| if side < 2 { 1 - side } else { side };
+        let (fine_turns, coarse_turns) = (self.fine_side >= 2, self.coarse_side >= 2);
+        (self.fine_side, self.coarse_side) = (turned(self.fine_side), turned(self.coarse_side));
+        self.is_reversed ^= fine_turns != coarse_turns;
+        self.is_second ^= coarse_turns;
+    }
 }

@@ -51,13 +51,13 @@ impl Reader {
 
     fn begin_world(&mut self, request: &Request) -> Result<()> {
         let to_camera = self.attributes.transform;
-        let from_camera = to_camera.inverse();
-        if !from_camera.is_finite() {
+        self.scene.camera = self.view.camera(to_camera);
+        let seen = self.scene.camera.map_or(to_camera, |camera| camera.from_world);
+        if !(to_camera.inverse().is_finite() && seen.inverse().is_finite()) {
             let problem = "the transform from the world to the camera cannot be undone";
             return Err(request.wrong(problem, "use no scale of 0 before it"));
         }
-        self.into_world(from_camera);
-        self.scene.camera = self.view.camera(to_camera);
+        self.into_world(to_camera.inverse());
         if self.scene.camera.is_none() {
             let what =
                 "the camera is not used: orthographic, as it is without a `Projection`, is not supported";

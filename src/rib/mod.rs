@@ -9,6 +9,7 @@ mod camera;
 mod curves;
 mod geometry;
 mod lexer;
+pub mod lower;
 mod model;
 mod parameters;
 mod patches;

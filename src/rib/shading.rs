@@ -120,6 +120,10 @@ impl Reader {
         let colour = parameters.list("lightcolor")?.unwrap_or([1.0; 3]);
         let colour = sound_colour(request, colour)?.map(|channel| channel * intensity);
         self.leave(request, parameters);
+        if matches!(kind, RibLightKind::Point { .. }) {
+            let what = "a point light is everywhere as bright as it is in the middle of the scene";
+            self.warnings.add(&request.place, what);
+        }
         let kind = kind.moved(self.attributes.transform);
         let light = RibLight { kind, colour, place: request.place.clone() };
         self.lamps.push(Lamp { light, handle, is_on: true });

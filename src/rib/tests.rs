@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::lower::lower;
 use super::{RibGeometry, RibScene, parse_bytes};
 
 /// Reads a text that can be read.
@@ -140,7 +141,13 @@ fn damaged_files_are_read_or_refused() {
     for _ in 0..20_000 {
         let mut bytes = seeds[random.usize(0..seeds.len())].clone();
         mutate(&mut bytes, &seeds, &mut random);
-        read += usize::from(parse_bytes(Path::new("no such folder/x.rib"), &bytes).is_ok());
+        if let Ok(scene) = parse_bytes(Path::new("no such folder/x.rib"), &bytes) {
+            read += 1;
+            let made = lower(&scene, 1);
+            assert!(
+                made.is_ok_and(|made| made.shapes.len() == scene.objects.len()) || !scene.objects.is_empty()
+            );
+        }
     }
     assert!(read > 0, "nothing is read any more: the changes are too many");
 }
