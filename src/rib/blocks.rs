@@ -57,7 +57,7 @@ impl Reader {
             let problem = "the transform from the world to the camera cannot be undone";
             return Err(request.wrong(problem, "use no scale of 0 before it"));
         }
-        self.into_world(to_camera.inverse());
+        self.place_in_world(to_camera.inverse());
         if self.scene.camera.is_none() {
             let what =
                 "the camera is not used: orthographic, as it is without a `Projection`, is not supported";

@@ -157,7 +157,7 @@ impl Reader {
     }
 
     /// From camera space, in which requests before `WorldBegin` are, to world space.
-    pub(super) fn into_world(&mut self, from_camera: DAffine3) {
+    pub(super) fn place_in_world(&mut self, from_camera: DAffine3) {
         for part in &mut self.parts {
             part.transform = from_camera * part.transform;
         }

@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec3};
 use super::model::{RibLight, RibLightKind, RibSurface};
 use super::parameters::Parameters;
 use super::place::quoted;
-use super::reader::{Lamp, Phase, Reader};
+use super::reader::{Lamp, Reader};
 use super::request::Request;
 use super::state::BlockKind;
 use super::view::{sound_colour, within};
