@@ -71,9 +71,9 @@ fn tessellated(
     seen: &DeviceScene,
 ) -> Result<MeshBuffers<WgpuBuffer>, Box<dyn Error>> {
     let patches = micropoly::core::patch::gregory::patch_count(&seen.patches) as u32;
-    let faces = seen.patches.len() as u32 - patches;
+    let records = seen.patches.len() as u32;
     let plan = FramePlan::new(seen.frame, patches, seen.objects.len() as u32, 4096)?;
-    let sizes = micropoly::core::memory::Sizes { faces, ..*plan.sizes() };
+    let sizes = micropoly::core::memory::Sizes { records, ..*plan.sizes() };
     let plan = FramePlan::with_sizes(seen.frame, sizes)?;
     let mut buffers = plan.prepare(device, &seen.objects, &seen.patches)?;
     Ok(plan.tessellate(device, &mut buffers)?)

@@ -84,8 +84,7 @@ impl Canvas {
             if pixel.depth == 0 {
                 return [0.0; 3];
             }
-            let object = &objects[patches[pixel.patch_id as usize].object as usize];
-            let normal = normal_at(&frame, patches, object, pixel.patch_id, pixel.u, pixel.v);
+            let normal = normal_at(&frame, &objects, patches, pixel.patch_id, pixel.u, pixel.v);
             (to_world * Vec3::from(normal).as_dvec3()).as_vec3().to_array()
         };
         let pixels = std::mem::take(&mut self.pixels);

@@ -33,12 +33,14 @@ pub mod looks;
 pub mod mesh;
 pub mod mscene;
 pub mod nurbs;
+pub mod obj;
 mod passes;
 mod path;
 mod picture;
 pub mod polygon;
 pub mod quadric;
 pub mod rasterising;
+mod records;
 mod render;
 pub mod rib;
 mod scene;
@@ -53,7 +55,9 @@ pub use micropoly_backend_wgpu as backend_wgpu;
 pub use micropoly_core as core;
 
 pub use crate::backend::{Backend, render, render_frames};
-pub use crate::core::camera::{Borders, Camera, FrameOptions, Light, Material, Profile, Rasteriser, Shading};
+pub use crate::core::camera::{
+    Borders, Camera, FrameOptions, Light, Material, Oracle, Profile, Rasteriser, Shading,
+};
 pub use crate::core::pattern::{Samples, Window};
 pub use crate::core::reconstruction::{Filter, Kernel};
 pub use crate::core::render::Counts;

@@ -220,15 +220,15 @@ pub(crate) fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room, a
         Batch::Surfaces(batch) => batch,
         Batch::Memory(_) => DEFAULT_BATCH,
     };
-    let (patches, faces) = (count(scene.patch_count()), count(scene.gregory_count()));
+    let (patches, records) = (count(scene.patch_count()), count(scene.record_count()));
     let objects = count(scene.objects.len());
     let (scheduler, capacity) = (options.scheduler, options.capacity);
     if capacity > 0 && !scheduler.has_capacity() {
         let problem = format!("the size of the stack of the {} scheduler cannot be chosen", scheduler.name());
         return Err(Error::scene(problem, "leave out --stack, or use --scheduler adaptive or local"));
     }
-    let sizes =
-        Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height, area }.checked();
+    let sizes = Sizes { patches, records, objects, batch, scheduler, capacity, levels, width, height, area }
+        .checked();
     sizes.and_then(|sizes| sizes.fitted(Room { bytes: options.batch.budget(), ..room })).map_err(Error::Plan)
 }
 

@@ -1,27 +1,25 @@
 //! A scene in memory, and how it becomes the plain structs that devices read.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
-use micropoly_core::abi::{FLAG_LAYERS, Frame, MAX_COORDINATE, Object, Patch};
-use micropoly_core::adjacency::{find_owners, room_needed};
+use micropoly_core::abi::{FLAG_INSTANCES, FLAG_LAYERS, Frame, MAX_COORDINATE, Object, Patch};
 use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::displacement::{Displacement, Unfit};
 
 use crate::error::{Error, Result};
-use crate::gregory::GregoryPatch;
 use crate::path::CameraPath;
-use crate::shape::BezierPatch;
+use crate::records::Shapes;
+use crate::shape::Shape;
 use crate::shot::Blur;
 use crate::{bpt, mscene, scene_file};
 
 /// Patches that share a transform and a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneObject {
-    /// Its Bézier patches, in object space.
-    pub patches: Vec<BezierPatch>,
-    /// Its Gregory patches, in object space.
-    pub gregory: Vec<GregoryPatch>,
+    /// Its patches, in object space; others may have the same.
+    pub shape: Arc<Shape>,
     /// Object space to world space.
     pub to_world: DAffine3,
     /// Its looks.
@@ -102,15 +100,22 @@ pub struct DeviceScene {
 }
 
 impl SceneObject {
+    /// One that stands still where it was made.
+    #[must_use]
+    pub fn new(shape: impl Into<Arc<Shape>>, material: Material) -> Self {
+        let (to_world, displacement, motion) = (DAffine3::IDENTITY, None, Motion::default());
+        Self { shape: shape.into(), to_world, material, displacement, motion }
+    }
+
     /// Number of its patches.
     #[must_use]
     pub fn patch_count(&self) -> usize {
-        self.patches.len() + self.gregory.len()
+        self.shape.patch_count()
     }
 
     /// The largest magnitude among the coordinates of its control points.
     fn extent(&self) -> f64 {
-        self.points().flatten().fold(0.0, |most: f64, c| most.max(f64::from(c.abs())))
+        self.shape.points().flatten().fold(0.0, |most: f64, c| most.max(f64::from(c.abs())))
     }
 
     /// Can it be displaced as it is to be?
@@ -142,11 +147,6 @@ impl SceneObject {
             None => object,
         }
     }
-
-    fn points(&self) -> impl Iterator<Item = [f32; 3]> {
-        let bezier = self.patches.iter().flat_map(|patch| patch.points);
-        bezier.chain(self.gregory.iter().flat_map(|patch| patch.points))
-    }
 }
 
 impl Scene {
@@ -158,7 +158,7 @@ impl Scene {
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("bpt") => Self::around(path.display().to_string(), bpt::load(path)?),
+            Some("bpt") => Self::around(path.display().to_string(), Shape::of_bezier(bpt::load(path)?)),
             Some("toml") => scene_file::load(path),
             Some("mscene") => mscene::load(path),
             _ if !path.exists() => {
@@ -176,11 +176,9 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Scene`] if the patches lie too far out to be seen at all.
-    pub fn around(name: String, patches: Vec<BezierPatch>) -> Result<Self> {
+    pub fn around(name: String, shape: Shape) -> Result<Self> {
         let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5, opacity: 1.0 };
-        let (gregory, to_world) = (Vec::new(), DAffine3::IDENTITY);
-        let (displacement, motion) = (None, Motion::default());
-        let objects = vec![SceneObject { patches, gregory, to_world, material, displacement, motion }];
+        let objects = vec![SceneObject::new(shape, material)];
         let (low, high) = bounds_of(&objects);
         let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = if radius > 0.0 { radius } else { 1.0 };
@@ -230,7 +228,7 @@ impl Scene {
     /// Number of Gregory patches among them.
     #[must_use]
     pub fn gregory_count(&self) -> usize {
-        self.objects.iter().map(|object| object.gregory.len()).sum()
+        self.objects.iter().map(|object| object.shape.gregory.len()).sum()
     }
 
     /// Corners of the box around all control points, in world space.
@@ -284,6 +282,16 @@ impl Scene {
         Err(Error::scene("an opacity is not above 0 and up to 1", "use 1 for what cannot be seen through"))
     }
 
+    fn check_shapes(&self) -> Result<()> {
+        if self.objects.iter().all(|object| object.shape.is_sound()) {
+            return Ok(());
+        }
+        Err(Error::scene(
+            "a shape has a weight that is not above 0, or joins sides that it does not have",
+            "give every weight a number above 0",
+        ))
+    }
+
     fn check_displacements(&self, options: &FrameOptions) -> Result<()> {
         for object in &self.objects {
             object.check_displacement().map_err(|(problem, remedy)| Error::scene(problem, remedy))?;
@@ -325,6 +333,7 @@ impl Scene {
         check_options(options)?;
         self.check_colours()?;
         self.check_looks()?;
+        self.check_shapes()?;
         self.check_displacements(options)?;
         if !camera.is_usable(options.height) {
             return Err(Error::scene(
@@ -342,38 +351,30 @@ impl Scene {
         if self.is_transparent() {
             frame.flags |= FLAG_LAYERS;
         }
+        let shapes = Shapes::of(&self.objects);
+        shapes.number(&mut objects);
+        frame.object_count = objects.len() as u32;
+        if shapes.are_shared() {
+            frame.flags |= FLAG_INSTANCES;
+        }
         Ok((frame, objects))
     }
 
     /// What of a scene does not.
     pub(crate) fn device_patches(&self) -> Vec<Patch> {
-        let count = self.patch_count();
-        let (mut patches, mut faces) = (Vec::with_capacity(count + self.gregory_count()), Vec::new());
-        for (index, object) in (0..).zip(&self.objects) {
-            patches.extend(object.patches.iter().map(|patch| device_patch(patch.points, index, 0)));
-            for patch in &object.gregory {
-                patches.push(device_patch(patch.net(), index, (count + faces.len()) as u32));
-                faces.push(patch.faces(index));
-            }
-        }
-        patches.append(&mut faces);
-        if self.is_displaced() {
-            let mut room = vec![0; room_needed(&patches)];
-            find_owners(&mut patches, &mut room);
-        }
-        patches
+        Shapes::of(&self.objects).records(self.is_displaced())
     }
-}
 
-fn device_patch(points: [[f32; 3]; 16], object: u32, faces: u32) -> Patch {
-    let axis = |k: usize| points.map(|point| point[k]);
-    Patch { x: axis(0), y: axis(1), z: axis(2), object, faces, ..Patch::default() }
+    /// Number of records that its patches need.
+    pub(crate) fn record_count(&self) -> usize {
+        Shapes::of(&self.objects).record_count()
+    }
 }
 
 fn bounds_of(objects: &[SceneObject]) -> (DVec3, DVec3) {
     let mut corners = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for object in objects {
-        for point in object.points() {
+        for point in object.shape.points() {
             let point = object.to_world.transform_point3(Vec3::from(point).as_dvec3());
             corners = (corners.0.min(point), corners.1.max(point));
         }
@@ -404,7 +405,7 @@ fn check_extent(placed: &Object, object: &SceneObject) -> Result<()> {
         let parts = [m[row] * x, m[row + 1] * y, m[row + 2] * z, m[row + 3]];
         parts.iter().map(|part| f64::from(part.abs())).sum::<f64>()
     };
-    for point in object.points() {
+    for point in object.shape.points() {
         for furthest in [reach(0, point), reach(4, point), reach(8, point)] {
             let furthest = furthest + f64::from(placed.reach);
             if furthest.is_nan() || furthest > f64::from(MAX_COORDINATE) {

@@ -1,6 +1,7 @@
 //! Scene files: TOML, written by hand. `README.md` shows every field.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly_core::abi::{MAX_LIGHTS, MIN_NEAR};
@@ -15,7 +16,7 @@ use crate::gregory::GregoryPatch;
 use crate::image::linear_from_srgb;
 use crate::path::{CameraKey, CameraPath};
 use crate::scene::{Motion, Scene, SceneObject, rotation};
-use crate::shape::BezierPatch;
+use crate::shape::{BezierPatch, Shape};
 use crate::shot::{Blur, DEFAULT_SENSOR, Lens};
 
 /// Most patches that the generators of a scene may make together.
@@ -345,10 +346,9 @@ impl Place<'_> {
 
     fn object(&self, table: &Spanned<ObjectTable>) -> Result<SceneObject> {
         let object = table.get_ref();
-        let (mut patches, mut gregory) = self.shape(table)?;
+        let mut shape = self.shape(table)?;
         if object.reverse {
-            patches.iter_mut().for_each(BezierPatch::reverse);
-            gregory.iter_mut().for_each(GregoryPatch::reverse);
+            shape.reverse();
         }
         let (to_world, material) = (self.transform(object)?, self.material(object)?);
         let displacement = object.displacement.as_ref().map(|table| {
@@ -356,24 +356,24 @@ impl Place<'_> {
             Displacement { height: height as f32, frequency: frequency as f32, octaves }
         });
         let motion = self.motion(object)?;
-        let made = SceneObject { patches, gregory, to_world, material, displacement, motion };
+        let made = SceneObject { shape: Arc::new(shape), to_world, material, displacement, motion };
         match (made.check_displacement(), &object.displacement) {
             (Err((problem, remedy)), Some(table)) => Err(self.wrong(table, problem, remedy)),
             _ => Ok(made),
         }
     }
 
-    fn shape(&self, table: &Spanned<ObjectTable>) -> Result<(Vec<BezierPatch>, Vec<GregoryPatch>)> {
+    fn shape(&self, table: &Spanned<ObjectTable>) -> Result<Shape> {
         let ObjectTable { geometry, patches, gregory, generate, .. } = table.get_ref();
         match (geometry, patches, gregory, generate) {
-            (Some(file), None, None, None) => Ok((self.geometry(file)?, Vec::new())),
+            (Some(file), None, None, None) => Ok(Shape::of_bezier(self.geometry(file)?)),
             (None, Some(list), None, None) => {
-                Ok((self.inline_patches(list, |points| BezierPatch { points })?, Vec::new()))
+                self.inline_patches(list, |points| BezierPatch { points }).map(Shape::of_bezier)
             }
             (None, None, Some(list), None) => {
-                Ok((Vec::new(), self.inline_patches(list, |points| GregoryPatch { points })?))
+                self.inline_patches(list, |points| GregoryPatch { points }).map(Shape::of_gregory)
             }
-            (None, None, None, Some(generator)) => Ok((self.generated(generator)?, Vec::new())),
+            (None, None, None, Some(generator)) => self.generated(generator).map(Shape::of_bezier),
             _ => {
                 let problem = "an object has exactly one of geometry, patches, gregory and generate";
                 Err(self.wrong(table, problem, "for example geometry = \"teapot.bpt\""))

@@ -41,8 +41,8 @@ fn a_scene_is_read_as_it_was_written() {
     let [object] = &scene.objects[..] else { panic!("one object") };
     assert_eq!(object.to_world.transform_point3(DVec3::ZERO), DVec3::new(7.0, 0.0, -1.0));
     assert_eq!(object.material.colour, Vec3::new(0.5, 0.6, 0.7));
-    assert_eq!(object.patches.len(), 1);
-    assert_eq!(object.patches[0].points[6], [1.0, 2.0, 0.0]);
+    assert_eq!(object.shape.bezier.len(), 1);
+    assert_eq!(object.shape.bezier[0].points[6], [1.0, 2.0, 0.0]);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn gregory_patches_are_read_and_drawn() {
     sample.objects[0].mesh = "round";
     let scene = read(&sample);
     assert_eq!((scene.patch_count(), scene.gregory_count()), (1, 1));
-    assert_eq!(scene.objects[0].gregory, *patches);
+    assert_eq!(scene.objects[0].shape.gregory, *patches);
     let device = scene.for_device(&FrameOptions::default()).expect("a drawable scene");
     assert_eq!((device.patches.len(), device.patches[0].faces, device.patches[1].faces), (2, 1, 0));
 }

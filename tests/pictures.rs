@@ -6,8 +6,8 @@
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly::core::camera::{Camera, Light, Material};
 use micropoly::{
-    Backend, Batch, BezierPatch, Blur, Film, Filter, FrameOptions, Kernel, Lens, Motion, Rasteriser,
-    RenderOptions, Rendering, Samples, Scene, SceneObject, Shading, Shot, Window, render, render_frames,
+    Backend, Batch, BezierPatch, Blur, Film, Filter, FrameOptions, Kernel, Lens, Rasteriser, RenderOptions,
+    Rendering, Samples, Scene, SceneObject, Shading, Shape, Shot, Window, render, render_frames,
 };
 
 fn options(samples: Samples) -> RenderOptions {
@@ -31,8 +31,7 @@ fn sheet(depth: f32) -> BezierPatch {
 
 fn object(patches: Vec<BezierPatch>, colour: Vec3, opacity: f32) -> SceneObject {
     let material = Material { colour, specular: 0.0, gloss: 0, opacity };
-    let (gregory, to_world, displacement, motion) = (Vec::new(), DAffine3::IDENTITY, None, Motion::default());
-    SceneObject { patches, gregory, to_world, material, displacement, motion }
+    SceneObject::new(Shape::of_bezier(patches), material)
 }
 
 /// Objects before a camera at z = 6 that looks down the z axis, in even light.
@@ -330,7 +329,7 @@ fn smooth_shading_is_closer_to_the_surface_where_micropolygons_are_large() {
 fn what_is_known_of_a_pixel_is_that_of_its_nearest_sample() {
     // A ball: normals point away from its middle, and the depth is that of a ball.
     let mut scene = Scene::load("scenes/spheres.toml").expect("a scene");
-    let ball: Vec<BezierPatch> = scene.objects[0].patches[..8].to_vec();
+    let ball: Vec<BezierPatch> = scene.objects[0].shape.bezier[..8].to_vec();
     let (low, high) = ball
         .iter()
         .flat_map(|patch| patch.points)
@@ -338,7 +337,7 @@ fn what_is_known_of_a_pixel_is_that_of_its_nearest_sample() {
             (low.min(Vec3::from(point)), high.max(Vec3::from(point)))
         });
     let (middle, radius) = ((low + high) * 0.5, (high.x - low.x) * 0.5);
-    scene.objects[0].patches = ball;
+    scene.objects[0].shape = Shape::of_bezier(ball).into();
     let eye = middle.as_dvec3() + DVec3::new(3.0, -4.0, 2.0) * f64::from(radius);
     scene.camera = Camera::look_at(eye, middle.as_dvec3(), DVec3::Z, 40.0, 0.001).expect("a view");
     for bumps in [None, Some(1.0e-6)] {

@@ -1,13 +1,14 @@
 //! The scenes in the repository show what they should.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use micropoly::bench::{Plan, Views, devices, spike};
 use micropoly::core::camera::{Camera, Light, Material};
 use micropoly::generate::{Generator, generate};
 use micropoly::{
-    Backend, BezierPatch, Blur, FrameOptions, Image, Motion, RenderOptions, Rendering, Scene, SceneObject,
-    Scheduler, render,
+    Backend, BezierPatch, Blur, FrameOptions, Image, RenderOptions, Rendering, Scene, SceneObject, Scheduler,
+    Shape, render,
 };
 
 fn render_at(scene: &Scene, width: u32, height: u32, bound: f32) -> Rendering {
@@ -42,14 +43,7 @@ fn ball(camera: Camera) -> Scene {
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.5),
         lights: vec![Light::Point { position: glam::DVec3::ZERO, colour: glam::Vec3::splat(0.5) }],
-        objects: vec![SceneObject {
-            patches,
-            gregory: Vec::new(),
-            to_world: glam::DAffine3::IDENTITY,
-            material,
-            displacement: None,
-            motion: Motion::default(),
-        }],
+        objects: vec![SceneObject::new(Shape::of_bezier(patches), material)],
     }
 }
 
@@ -80,7 +74,7 @@ fn gregory_ball() -> Scene {
 
 /// The face points of all patches moved by up to `apart`: every border keeps its place.
 fn crumple(scene: &mut Scene, random: &mut fastrand::Rng, apart: f32) {
-    for patch in &mut scene.objects[0].gregory {
+    for patch in &mut Arc::make_mut(&mut scene.objects[0].shape).gregory {
         for point in &mut patch.points[12..] {
             *point = point.map(|c| c + apart * (2.0 * random.f32() - 1.0));
         }
@@ -204,7 +198,7 @@ fn every_point_of_the_teapot_is_the_published_one() {
     let points = |patches: &[BezierPatch]| -> Vec<f32> {
         patches.iter().flat_map(|patch| patch.points).flatten().collect()
     };
-    for (a, b) in points(&patches).into_iter().zip(points(&published.objects[0].patches)) {
+    for (a, b) in points(&patches).into_iter().zip(points(&published.objects[0].shape.bezier)) {
         assert!((a - b).abs() < 1.0e-6, "{a} is not {b}");
     }
 }

@@ -1,7 +1,7 @@
 //! Extreme but legal scenes: they end in an image, whatever their numbers, and the same one every time.
 
 use micropoly::core::camera::{Camera, Light, Material};
-use micropoly::{Batch, BezierPatch, Blur, FrameOptions, Motion, RenderOptions, Scene, SceneObject, render};
+use micropoly::{Batch, BezierPatch, Blur, FrameOptions, RenderOptions, Scene, SceneObject, Shape, render};
 
 /// A number of any sign and magnitude between 10^`low` and 10^`high`, or zero.
 fn extreme(random: &mut fastrand::Rng, low: f64, high: f64) -> f64 {
@@ -34,14 +34,7 @@ fn extreme_scene(random: &mut fastrand::Rng) -> Option<Scene> {
         background: glam::Vec3::ZERO,
         ambient: glam::Vec3::splat(0.1),
         lights: vec![light],
-        objects: vec![SceneObject {
-            patches,
-            gregory: Vec::new(),
-            to_world: glam::DAffine3::IDENTITY,
-            material,
-            displacement: None,
-            motion: Motion::default(),
-        }],
+        objects: vec![SceneObject::new(Shape::of_bezier(patches), material)],
     })
 }
 

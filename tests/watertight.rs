@@ -11,14 +11,14 @@ use micropoly::core::num::dot3;
 use micropoly::generate::{Generator, generate};
 use micropoly::mesh::{Format, Mesh};
 use micropoly::{
-    Backend, Batch, BezierPatch, Camera, FrameOptions, Motion, RenderOptions, Scene, SceneObject, Scheduler,
+    Backend, Batch, BezierPatch, Camera, FrameOptions, RenderOptions, Scene, SceneObject, Scheduler, Shape,
     render,
 };
 
 const CAMERAS: u64 = 200;
 
 fn scene_of(patches: Vec<BezierPatch>) -> Scene {
-    let mut scene = Scene::around("closed".into(), patches).expect("a scene");
+    let mut scene = Scene::around("closed".into(), Shape::of_bezier(patches)).expect("a scene");
     (scene.background, scene.ambient) = (Vec3::ZERO, Vec3::ONE);
     scene
 }
@@ -286,15 +286,8 @@ fn objects_are_placed_in_the_world_and_triangles_face_as_their_normals_do() {
         DVec3::new(10.0, 20.0, 30.0),
     );
     let material = Material { colour: Vec3::ONE, specular: 0.0, gloss: 0, opacity: 1.0 };
-    let SceneObject { patches, .. } = scene.objects.remove(0);
-    scene.objects = vec![SceneObject {
-        patches,
-        gregory: Vec::new(),
-        to_world,
-        material,
-        displacement: None,
-        motion: Motion::default(),
-    }];
+    let SceneObject { shape, .. } = scene.objects.remove(0);
+    scene.objects = vec![SceneObject { to_world, ..SceneObject::new(shape, material) }];
     (scene.camera, _) = look_around(&scene, &mut fastrand::Rng::with_seed(74));
     let mesh = mesh_of(&scene, &small());
     assert_eq!(mesh.open_edges(), 0);

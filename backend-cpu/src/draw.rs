@@ -14,6 +14,7 @@ use micropoly_core::kernel::dice_any::dice_any;
 use micropoly_core::kernel::sample::{Band, sample};
 use micropoly_core::kernel::shade::shade;
 use micropoly_core::kernel::triangle::samples_of;
+use micropoly_core::patch::instance::{Instance, instance};
 use micropoly_core::stage::Extent;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -84,8 +85,10 @@ pub(crate) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    pub(crate) fn object_of(&self, draw: Draw) -> &Object {
-        &self.objects[self.patches[draw.patch_id as usize].object as usize]
+    /// The record of a draw's patch, and its object.
+    pub(crate) fn placed(&self, draw: Draw) -> (u32, &Object) {
+        let Instance { record, object } = instance(self.frame, self.objects, self.patches, draw.patch_id);
+        (record, &self.objects[object as usize])
     }
 }
 
@@ -300,8 +303,8 @@ fn draw_tile(
     let mut clock = Clock::start(steps);
     for index in list {
         let draw = scene.draws[*index as usize];
-        let object = scene.object_of(draw);
-        dice_any(scene.frame, scene.patches, object, draw, grid);
+        let (record, object) = scene.placed(draw);
+        dice_any(scene.frame, scene.patches, record, object, draw, grid);
         clock.lap(|steps| &steps.dice);
         shade(scene.frame, object, grid);
         clock.lap(|steps| &steps.shade);

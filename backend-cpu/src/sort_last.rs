@@ -197,8 +197,8 @@ pub(crate) fn sort_last(
     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
 ))]
 fn dice_one(scene: Scene<'_>, draw: Draw, grid: &mut Grid) {
-    let object = scene.object_of(draw);
-    dice_any(scene.frame, scene.patches, object, draw, grid);
+    let (record, object) = scene.placed(draw);
+    dice_any(scene.frame, scene.patches, record, object, draw, grid);
     shade(scene.frame, object, grid);
 }
 
@@ -207,7 +207,7 @@ fn dice_one(scene: Scene<'_>, draw: Draw, grid: &mut Grid) {
     "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt",
 ))]
 fn merge_one(scene: Scene<'_>, pattern: &Pattern, draw: Draw, grid: &Grid, target: &mut Merge<'_>) {
-    sample(scene.frame, pattern, (draw, scene.object_of(draw).opacity), grid, target);
+    sample(scene.frame, pattern, (draw, scene.placed(draw).1.opacity), grid, target);
 }
 
 #[multiversion(targets(
@@ -218,7 +218,7 @@ fn show_all(scene: Scene<'_>, pattern: &Pattern, grids: &[Grid], target: &mut Sh
     for (draw, grid) in scene.draws.iter().zip(grids) {
         let [_, _, top, bottom] = samples_of(scene.frame, *draw);
         if top < target.limits[3] && bottom > target.limits[2] {
-            sample(scene.frame, pattern, (*draw, scene.object_of(*draw).opacity), grid, target);
+            sample(scene.frame, pattern, (*draw, scene.placed(*draw).1.opacity), grid, target);
         }
     }
 }

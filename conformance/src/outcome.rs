@@ -40,13 +40,13 @@ impl Case {
         let Schedule { scheduler, batch, capacity } = schedule;
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
         let patches = patch_count(&self.patches);
-        let faces = count(self.patches.len() - patches);
+        let records = count(self.patches.len());
         let (patches, objects) = (count(patches), count(self.objects.len()));
         let frame = self.filtered();
         let Frame { levels, width, height, .. } = frame;
         let area = Area::of(&frame);
         let sizes =
-            Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height, area };
+            Sizes { patches, records, objects, batch, scheduler, capacity, levels, width, height, area };
         FramePlan::with_sizes(frame, sizes)
     }
 

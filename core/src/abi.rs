@@ -96,16 +96,39 @@ shared_constants! {
     const INNER_MOST: f32 = 4.0 / 9.0;
     /// From one of four control points to the next, as a share of a parameter range.
     const THIRD: f32 = 1.0 / 3.0;
+    /// Places on a piece of a line are multiples of this share of it, as a power of two: so they are the same whether it
+    /// is measured in its own units or in those of a line twice as long.
+    const PLACE_BITS: u32 = 8;
+    /// A patch whose sides are halves of others, or halved by others, is never halved more often than this: then places on
+    /// pieces of its sides are multiples of two units.
+    const JOINED_SPLITS: u32 = PARAM_BITS - PLACE_BITS - 1;
+    /// A quarter.
+    const QUARTER: f32 = 0.25;
+    /// Lines have to be so much flatter than surfaces. Where a line has its steps already, vertices stray along it, and
+    /// what they enclose is never flatter than the line: it must be flat enough all the same, at twice what it is off.
+    const LINE_SHARE: f32 = 2.5;
     /// Smallest squared length of a vector that is normalised for shading.
     const SHADE_TINY: f32 = 1.0e-30;
 
     /// Where a word of [`Patch::owners`] has one more than the owner's number, above its side or corner.
-    const OWNER_SHIFT: u32 = 4;
+    const OWNER_SHIFT: u32 = 6;
+    /// Bit of a word of [`Patch::owners`]: the side is one half of the owner's; of a corner, it lies in the middle of the
+    /// owner's side.
+    const OWNER_IS_HALF: u32 = 16;
+    /// Bit of a word of [`Patch::owners`]: the half that begins in the middle.
+    const OWNER_IS_SECOND: u32 = 32;
     /// Bit of a word of [`Patch::owners`]: the owner is a corner, bits 1 and 2; else it is a side. With
     /// [`OWNER_IS_REVERSED`] it is a side that is folded: it runs back over its own points from the middle on.
     const OWNER_IS_CORNER: u32 = 8;
     /// Bit of a word of [`Patch::owners`]: the owner's side runs the other way.
     const OWNER_IS_REVERSED: u32 = 1;
+
+    /// Of [`Patch::kind`], a bit a side: two patches lie beside it, so it is halved in any case.
+    const KIND_HALVED: u32 = 15;
+    /// Of [`Patch::kind`], from here on a bit a side: it is half of the side of another patch.
+    const KIND_HALF_SHIFT: u32 = 4;
+    /// Bit of [`Patch::kind`]: the patch is rational.
+    const KIND_RATIONAL: u32 = 256;
 
     /// Most times that bumps are added, each twice as fine as the last.
     const MAX_OCTAVES: u32 = 8;
@@ -167,6 +190,11 @@ shared_constants! {
     const FLAG_LAYERS: u32 = 64;
     /// Bit of [`Frame::flags`]: draws are sampled one by one ([`crate::stage::Stage::SortLast`]), not tile by tile.
     const FLAG_SORT_LAST: u32 = 128;
+    /// Bit of [`Frame::flags`]: a surface is drawn when it is flat, as one micropolygon; [`Frame::bound`] is how far it may be
+    /// off, in pixels (see [`crate::kernel::flat`]).
+    const FLAG_FLAT: u32 = 256;
+    /// Bit of [`Frame::flags`]: several objects have the same patches (see [`crate::patch::instance`]).
+    const FLAG_INSTANCES: u32 = 512;
     /// Log2 of the sample columns (and rows) of a pixel, at most.
     const MAX_PATTERN_BITS: u32 = 3;
     /// Samples of a pixel, at most.
@@ -316,8 +344,11 @@ shared_structs! {
         /// Index of the [`Object`] that the patch belongs to.
         object: u32,
         /// 0 for a Bézier patch; for a Gregory patch the index of the record that holds its face points, behind
-        /// all patches. Its inner control points are then the means of two face points each.
+        /// all patches: its inner control points are then the means of two face points each; for a rational patch that
+        /// of the record that holds its weights, as x.
         faces: u32,
+        /// `KIND_…` bits.
+        kind: u32,
         /// A word a side, then a word a corner: where their vertices are evaluated, 0 = where they are (see
         /// [`crate::patch::owner`]). Only displacement looks at it.
         owners: [u32; 8],
@@ -343,6 +374,10 @@ shared_structs! {
         octaves: u32,
         /// Share of what is behind it that it hides, above 0; 1 = all.
         opacity: f32,
+        /// Number of its first patch, if any objects have the same ones: then patches are numbered object by object.
+        first_patch: u32,
+        /// Record of its first patch.
+        first_record: u32,
         /// Turns normals from object space to eye space, 3 rows of 3: the transform's cofactors, scaled.
         normal_to_eye: [f32; 9],
     }
@@ -432,6 +467,8 @@ shared_structs! {
         shown_bottom: u32,
         /// Samples that a pixel is made of.
         taps: u32,
+        /// Number of objects.
+        object_count: u32,
     }
 
     /// A sample that a pixel is made of.

@@ -3,19 +3,20 @@
 //! Edges are the same if their four control points are, from either end; corners if they are in the same place. Patches
 //! of different objects never meet. A side may be one point, or run back over its own points. Nothing is allocated: numbers are sorted in room that the caller gives.
 
-use crate::abi::Patch;
+use crate::abi::{OWNER_IS_REVERSED, OWNER_IS_SECOND, OWNER_SHIFT, Patch};
+use crate::border::corners_of;
 use crate::patch::gregory::patch_count;
-use crate::patch::owner::{owned_by_corner, owned_by_fold, owned_by_side};
+use crate::patch::half::SIDE_POINTS;
+use crate::patch::owner::{owned_by_corner, owned_by_fold, owned_by_middle, owned_by_side};
 
 /// A control point as bits, in which -0 is 0.
 type Bits = [u32; 3];
 
-/// Control points of the sides, along u or v, and of the corners; numbered as in [`crate::border`].
-const SIDE_POINTS: [[usize; 4]; 4] = [[0, 4, 8, 12], [3, 7, 11, 15], [0, 1, 2, 3], [12, 13, 14, 15]];
+/// Control points of the corners; numbered as in [`crate::border`].
 const CORNER_POINTS: [usize; 4] = [0, 12, 3, 15];
 
 /// Most patches that can have owners.
-pub const MAX_PATCHES: usize = (1 << 28) - 1;
+pub const MAX_PATCHES: usize = (1 << (32 - OWNER_SHIFT)) - 1;
 
 /// Numbers that [`find_owners`] needs room for.
 #[must_use]
@@ -23,7 +24,8 @@ pub fn room_needed(patches: &[Patch]) -> usize {
     4 * patch_count(patches)
 }
 
-/// Fills in [`Patch::owners`] of all patches; records of face points may follow them.
+/// Fills in [`Patch::owners`] of all patches; records of face points may follow them. Sides that are halves of others must
+/// have their words already.
 ///
 /// # Panics
 /// If `room` is shorter than [`room_needed`], or there are more than [`MAX_PATCHES`].
@@ -71,7 +73,10 @@ fn own_groups<K: Ord>(
 fn own_side(patches: &mut [Patch], owner: u32, at: u32) {
     let (patch, side) = ((at / 4) as usize, (at % 4) as usize);
     let (_, curve) = side_of(patches, at);
-    let corner = crate::border::corners_of(side)[0];
+    let corner = corners_of(side)[0];
+    if patches[patch].is_half(side) {
+        return own_middle(&mut patches[patch], side);
+    }
     patches[patch].owners[side] = if curve.iter().all(|point| *point == curve[0]) {
         match patches[patch].owners[4 + corner] {
             0 => owned_by_corner(patch as u32, corner as u32),
@@ -84,6 +89,14 @@ fn own_side(patches: &mut [Patch], owner: u32, at: u32) {
     } else {
         owned_by_side(owner / 4, owner % 4, runs_backwards(patches, at) != runs_backwards(patches, owner))
     };
+}
+
+/// The corner at which a half of a side begins or ends in its middle belongs to the large patch, as the side does.
+fn own_middle(patch: &mut Patch, side: usize) {
+    let word = patch.owners[side];
+    let is_last = (word & OWNER_IS_SECOND != 0) == (word & OWNER_IS_REVERSED != 0);
+    let corner = corners_of(side)[usize::from(is_last)];
+    patch.owners[4 + corner] = owned_by_middle((word >> OWNER_SHIFT) - 1, (word >> 1) & 3);
 }
 
 /// Control points of a side from the end that is lower, after its object.
@@ -115,10 +128,10 @@ fn bits(patch: &Patch, l: usize) -> Bits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::abi::PARAM_ONE;
+    use crate::abi::{KIND_HALF_SHIFT, PARAM_ONE};
     use crate::kernel::dice::position_at;
     use crate::patch::Net;
-    use crate::patch::owner::Owner;
+    use crate::patch::owner::{Owner, owned_by_half};
 
     /// Two patches beside each other on a grid of points; `turn` numbers the points of the second one anew.
     fn pair(turn: impl Fn(usize, usize) -> (usize, usize)) -> [Patch; 2] {
@@ -159,6 +172,46 @@ mod tests {
                 assert_eq!(own, at(&patches[owner.patch_id as usize], owner.u, owner.v), "at {u}, {v}");
             }
             assert_eq!(shared, 4, "all vertices of one side");
+        }
+    }
+
+    /// A large patch, and two that lie beside the half of it with u = 1; `turn` says whether theirs runs the other way.
+    fn beside(turn: bool) -> [Patch; 3] {
+        let large = pair(|i, j| (i, j))[0];
+        let halves = [[0, PARAM_ONE / 2], [PARAM_ONE / 2, PARAM_ONE]].map(|range| {
+            let net = Net::in_object_space(&large).between([[0, PARAM_ONE], range]);
+            let mut small = Patch { x: net.x, y: net.y, z: net.z, ..large };
+            for l in 0..16 {
+                let from = if turn { 4 * (3 - l / 4) + 3 - l % 4 } else { l };
+                (small.x[l], small.y[l], small.z[l]) = (net.x[from] + 3.0, net.y[from] + 0.3, net.z[from]);
+            }
+            small
+        });
+        let [mut first, mut second] = halves;
+        let side = if turn { 3 } else { 2 };
+        for (patch, is_second) in [(&mut first, false), (&mut second, true)] {
+            patch.kind = 1 << side << KIND_HALF_SHIFT;
+            patch.owners[side] = owned_by_half(0, 3, turn, is_second);
+        }
+        [Patch { kind: 1 << 3, ..large }, first, second]
+    }
+
+    #[test]
+    fn halves_of_a_side_have_the_large_patchs_vertices() {
+        for turn in [false, true] {
+            let mut patches = beside(turn);
+            find_owners(&mut patches, &mut [0; 12]);
+            for along in [0, 2, 1 << 20, PARAM_ONE / 2, PARAM_ONE] {
+                for (index, start) in [(1, 0), (2, PARAM_ONE / 2)] {
+                    let (u, v) = if turn { (PARAM_ONE, PARAM_ONE - along) } else { (0, along) };
+                    let there = Owner { patch_id: 0, u: PARAM_ONE, v: start + along / 2 };
+                    assert_eq!(patches[index].joined(u, v), Some(there), "{index} at {along}");
+                    if (along == 0) == (index == 1) && along % PARAM_ONE == 0 {
+                        continue; // the corner that is the large patch's too: found by its place
+                    }
+                    assert_eq!(patches[index].owner(index as u32, u, v), there, "{index} at {along}");
+                }
+            }
         }
     }
 

@@ -12,8 +12,8 @@
 //! some steps added along one of them.
 
 use crate::abi::{
-    CORNER_SHIFT, Draw, FIVE_BITS, PARAM_BITS, RATE_U_SHIFT, RATE_V_SHIFT, SIDE_MASK, SPLIT_U, Surface,
-    Verdict,
+    CORNER_SHIFT, Draw, FIVE_BITS, PARAM_BITS, PLACE_BITS, RATE_U_SHIFT, RATE_V_SHIFT, SIDE_MASK, SPLIT_U,
+    Surface, Verdict,
 };
 
 /// The sides, by number: `v` = low, `v` = high, `u` = low, `u` = high. The first two run along `u`.
@@ -64,7 +64,13 @@ impl Side {
 #[inline(always)]
 #[must_use]
 pub const fn place(index: u32, steps: u32, bits: u32) -> u32 {
-    if 2 * index <= steps { (index << bits) / steps } else { (1 << bits) - ((steps - index) << bits) / steps }
+    let fine = if bits < PLACE_BITS { bits } else { PLACE_BITS };
+    let rest = bits - fine;
+    if 2 * index <= steps {
+        ((index << fine) / steps) << rest
+    } else {
+        (1 << bits) - ((((steps - index) << fine) / steps) << rest)
+    }
 }
 
 /// A corner that has strayed, packed: low bits of `u` and of `v` that are cleared, along which of them steps are

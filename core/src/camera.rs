@@ -3,8 +3,8 @@
 //! Trigonometry comes from `libm`, so that a scene gives the same bits on every platform.
 
 use crate::abi::{
-    FLAG_CULL_BACKFACES, FLAG_FIXED, FLAG_NAIVE, FLAG_SMOOTH, FLAG_SORT_LAST, FLAG_WEBER, FLAG_WHOLE, Frame,
-    MAX_FOCAL, MAX_LEVELS, MAX_LIGHTS, MIN_NEAR, Object,
+    FLAG_CULL_BACKFACES, FLAG_FIXED, FLAG_FLAT, FLAG_NAIVE, FLAG_SMOOTH, FLAG_SORT_LAST, FLAG_WEBER,
+    FLAG_WHOLE, Frame, MAX_FOCAL, MAX_LEVELS, MAX_LIGHTS, MIN_NEAR, Object,
 };
 use crate::pattern::{Region, Samples};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
@@ -76,6 +76,34 @@ impl Profile {
         match self {
             Self::Conservative => 0,
             Self::Weber2014 => FLAG_WEBER | FLAG_FIXED | FLAG_NAIVE,
+        }
+    }
+}
+
+/// Share of a tolerance that is left after what perspective may hide.
+const FLAT_SHARE: f32 = 0.875;
+
+/// When a surface is split no further.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Oracle {
+    /// When it is no longer on screen than [`FrameOptions::bound`]; then it is diced into micropolygons.
+    #[default]
+    Size,
+    /// When it is flat, to [`FrameOptions::tolerance`]; then it is one micropolygon. Splits are 1:4 (Eisenacher, Meyer &
+    /// Loop 2009; Liu & Shih 2012).
+    Flatness,
+}
+
+impl Oracle {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Size, Self::Flatness];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Size => "size",
+            Self::Flatness => "flatness",
         }
     }
 }
@@ -184,6 +212,11 @@ pub struct FrameOptions {
     pub rate: u32,
     /// Length of a micropolygon in pixels; they are larger where `rate` of them would not be as long as `bound`.
     pub size: f32,
+    /// When a surface is split no further.
+    pub oracle: Oracle,
+    /// How far what is drawn may be from the surface, in pixels; of [`Oracle::Flatness`] only, which has no use for
+    /// `bound`, `rate` and `size`.
+    pub tolerance: f32,
     /// How the grids of neighbouring surfaces meet.
     pub borders: Borders,
     /// Levels `k`: a surface is split at most `k - 1` times (Weber 2014: 23).
@@ -213,6 +246,8 @@ impl Default for FrameOptions {
             bound: 16.0,
             rate: 16,
             size: 1.0,
+            oracle: Oracle::Size,
+            tolerance: 0.5,
             borders: Borders::Watertight,
             levels: MAX_LEVELS,
             cull_backfaces: false,
@@ -229,7 +264,7 @@ impl Default for FrameOptions {
 impl FrameOptions {
     /// Micropolygons a pixel.
     fn density(&self) -> f32 {
-        let size = f64::from(self.size).max(f64::from(self.bound) / f64::from(self.rate));
+        let size = f64::from(self.size).max(f64::from(self.largest()) / f64::from(self.most_rate()));
         (1.0 / size) as f32
     }
 
@@ -237,7 +272,22 @@ impl FrameOptions {
         let backfaces = if self.cull_backfaces { FLAG_CULL_BACKFACES } else { 0 };
         let whole = if self.whole { FLAG_WHOLE } else { 0 };
         let own = self.shading.flag() | self.rasteriser.flag();
-        self.profile.flag() | self.borders.flag() | backfaces | whole | own
+        let flat = if self.is_flat() { FLAG_FLAT } else { 0 };
+        self.profile.flag() | self.borders.flag() | backfaces | whole | own | flat
+    }
+
+    const fn is_flat(&self) -> bool {
+        matches!(self.oracle, Oracle::Flatness)
+    }
+
+    /// What [`Frame::bound`] is. Control points are compared on screen, as if perspective did not bend lines within a
+    /// surface; what that may hide is allowed for.
+    fn largest(&self) -> f32 {
+        if self.is_flat() { self.tolerance * FLAT_SHARE } else { self.bound }
+    }
+
+    const fn most_rate(&self) -> u32 {
+        if self.is_flat() { 1 } else { self.rate }
     }
 }
 
@@ -279,9 +329,9 @@ impl Camera {
             centre_x: options.width as f32 * 0.5,
             centre_y: options.height as f32 * 0.5,
             near: self.near as f32,
-            bound: options.bound,
+            bound: options.largest(),
             levels: options.levels,
-            rate: options.rate,
+            rate: options.most_rate(),
             density: options.density(),
             around: self.around(options),
             flags: options.flags(),

@@ -79,8 +79,8 @@ pub const fn stack_local(groups: u64, k: u64, capacity: u64) -> u64 {
 pub struct Sizes {
     /// Patches of the scene.
     pub patches: u32,
-    /// Records of face points behind them, one a Gregory patch.
-    pub faces: u32,
+    /// Records of patches, and of what some kinds need besides: fewer than patches where objects have the same ones.
+    pub records: u32,
     /// Objects of the scene.
     pub objects: u32,
     /// Surfaces a batch.
@@ -165,7 +165,7 @@ impl Sizes {
     pub const fn checked(self) -> Result<Self, PlanError> {
         let limits = [
             ("number of patches", self.patches, 1, u32::MAX / 2),
-            ("number of Gregory patches", self.faces, 0, self.patches),
+            ("number of records of patches", self.records, 1, u32::MAX / 2),
             ("number of objects", self.objects, 1, u32::MAX / 2),
             ("batch", self.batch, 1, MAX_BATCH),
             ("number of levels (max-depth)", self.levels, 1, MAX_LEVELS),
@@ -318,7 +318,7 @@ impl Sizes {
     /// Entries of the buffer of patches.
     #[must_use]
     pub const fn patch_entries(&self) -> u64 {
-        self.patches as u64 + self.faces as u64
+        self.records as u64
     }
 
     const fn patch_bytes(&self) -> u64 {

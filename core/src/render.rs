@@ -132,10 +132,10 @@ impl FramePlan {
     pub const fn new(frame: Frame, patches: u32, objects: u32, batch: u32) -> Result<Self, PlanError> {
         let Frame { width, height, levels, .. } = frame;
         let (scheduler, capacity) = (Scheduler::Adaptive, 0);
-        let (faces, area) = (0, Area::of(&frame));
+        let (records, area) = (patches, Area::of(&frame));
         Self::with_sizes(
             frame,
-            Sizes { patches, faces, objects, batch, scheduler, capacity, levels, width, height, area },
+            Sizes { patches, records, objects, batch, scheduler, capacity, levels, width, height, area },
         )
     }
 
@@ -173,7 +173,7 @@ impl FramePlan {
         &self.sizes
     }
 
-    /// Reserves all buffers and uploads the scene; records of face points lie behind all patches.
+    /// Reserves all buffers and uploads the scene; records of what some kinds need besides lie behind all patches.
     ///
     /// # Errors
     /// What the device reports.

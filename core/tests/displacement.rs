@@ -88,8 +88,8 @@ fn no_vertex_moves_farther_than_its_reach() {
         let object = placed(&mut random, &mut frame);
         let draw = draw_at(random_surface(&mut random, 8), random_rates(&mut random));
         let smooth = Object { reach: 0.0, ..object };
-        dice_any(&frame, &patches, &object, draw, &mut grids[0]);
-        dice_any(&frame, &patches, &smooth, draw, &mut grids[1]);
+        dice_any(&frame, &patches, 0, &object, draw, &mut grids[0]);
+        dice_any(&frame, &patches, 0, &smooth, draw, &mut grids[1]);
         for at in 0..grids[0].stride * grids[0].rows {
             let [moved, unmoved] = [0, 1].map(|k| Vec3::from(grids[k].point(at)));
             let by = (moved - unmoved).abs().max_element();
@@ -115,7 +115,7 @@ fn nothing_visible_is_culled_and_boxes_contain_what_is_drawn() {
         }
         let draw =
             if verdict.code == CULL { draw_at(surface, [MAX_RATE; 2]) } else { Draw::new(surface, verdict) };
-        dice_any(&frame, &patches, &object, draw, &mut grid);
+        dice_any(&frame, &patches, 0, &object, draw, &mut grid);
         let (columns, rows) = (verdict.columns, verdict.rows);
         // What must be clipped is not looked at.
         for at in (0..grid.stride * grid.rows).filter(|at| grid.w[*at] > 0.0) {
@@ -146,7 +146,7 @@ fn normals_are_those_of_the_displaced_surface() {
         object = object.displaced(&Displacement { height: 0.02, frequency: 4.0, octaves: 2 }, 4.0);
         let surface = Surface { shape: 4 | 4 << 5, u: 5 << 20, v: 9 << 20, ..Surface::root(0) };
         let verdict = Verdict::default().with_sides([Default::default(); 4], [MAX_RATE; 2]);
-        dice_any(&frame, &[patch], &object, Draw::new(surface, verdict), &mut grid);
+        dice_any(&frame, &[patch], 0, &object, Draw::new(surface, verdict), &mut grid);
         let point = |row: usize, column: usize| Vec3::from(grid.point(row * grid.stride + column)).as_dvec3();
         for (row, column) in [(2, 3), (8, 8), (13, 5)] {
             let along_u = point(row, column + 1) - point(row, column - 1);

@@ -129,7 +129,7 @@ fn tally(frame: &Frame, object: &Object, patches: &[Patch]) -> Tally {
     let mut edges: HashMap<([u32; 3], [u32; 3]), i32> = HashMap::new();
     let mut grid = Box::new(Grid::default());
     for draw in drawn(frame, object, patches) {
-        dice_any(frame, patches, object, draw, &mut grid);
+        dice_any(frame, patches, draw.patch_id, object, draw, &mut grid);
         // -0 is 0.
         let point = |at: usize| grid.point(at).map(|c| (c + 0.0).to_bits());
         for (row, column) in (0..grid.rows - 1).flat_map(|row| (0..grid.stride - 1).map(move |c| (row, c))) {

@@ -11,7 +11,7 @@ use micropoly::core::reconstruction::{MAX_RADIUS, MIN_RADIUS};
 use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
 use micropoly::{
-    Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Profile, Rasteriser,
+    Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Oracle, Profile, Rasteriser,
     RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
 };
 
@@ -349,6 +349,13 @@ pub(crate) struct FrameArguments {
     /// Length of a micropolygon in pixels; larger where --dice of them would not be as long as --bound.
     #[arg(long, value_name = "PIXELS", default_value = "1", allow_negative_numbers = true, value_parser = pixels)]
     micropolygon_size: f32,
+    /// When a surface is split no further: when it is no longer than --bound, then it is diced; or when it is flat, then it
+    /// is one micropolygon.
+    #[arg(long, value_enum, default_value_t = OracleChoice::Size, conflicts_with = "profile")]
+    oracle: OracleChoice,
+    /// How far what is drawn may be from the surface, for --oracle flatness. [default: 0.5]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = pixels, requires = "oracle")]
+    tolerance: Option<f32>,
     /// How the grids of neighbouring surfaces meet; all but watertight leave cracks, and are there to compare with.
     #[arg(long, value_enum, default_value_t = BordersChoice::Watertight)]
     borders: BordersChoice,
@@ -424,6 +431,8 @@ impl FrameArguments {
             bound: self.bound.unwrap_or(bound),
             rate,
             size: self.micropolygon_size,
+            oracle: self.oracle.into(),
+            tolerance: self.tolerance.unwrap_or(FrameOptions::default().tolerance),
             borders: self.borders.into(),
             levels: self.max_depth.unwrap_or(if self.is_weber() { 23 } else { MAX_LEVELS }),
             cull_backfaces: self.cull_backfaces,
@@ -490,6 +499,23 @@ pub(crate) enum ProfileChoice {
     /// As Weber's program of 2014 does it.
     #[value(name = "weber2014")]
     Weber2014,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OracleChoice {
+    /// No longer than --bound.
+    Size,
+    /// As flat as --tolerance.
+    Flatness,
+}
+
+impl From<OracleChoice> for Oracle {
+    fn from(choice: OracleChoice) -> Self {
+        match choice {
+            OracleChoice::Size => Self::Size,
+            OracleChoice::Flatness => Self::Flatness,
+        }
+    }
 }
 
 impl From<ProfileChoice> for Profile {

@@ -6,7 +6,9 @@ use micropoly::core::backend::Device;
 use micropoly::core::stage::Stage;
 use micropoly::devices::{DeviceEntry, Job, devices_of, with_device};
 use micropoly::looks::Look;
-use micropoly::{Backend, Blur, Error, FrameOptions, Image, Lens, Result, Scene, Scheduler, bpt, scene_file};
+use micropoly::{
+    Backend, Blur, Error, FrameOptions, Image, Lens, Result, Scene, Scheduler, Shape, bpt, scene_file,
+};
 use micropoly_conformance::report::{
     CaseReport, DeviceReport, PictureReport, check_case, check_stage, pixels,
 };
@@ -70,7 +72,7 @@ fn built_in(name: &str, text: &str) -> Result<Scene> {
 
 pub(super) fn teapot(name: &str) -> Result<Scene> {
     let teapot = include_bytes!("../../scenes/teapot.bpt").to_vec();
-    Scene::around(name.to_owned(), bpt::parse_bytes("teapot.bpt".as_ref(), teapot)?)
+    Scene::around(name.to_owned(), Shape::of_bezier(bpt::parse_bytes("teapot.bpt".as_ref(), teapot)?))
 }
 
 /// A teapot with balls in it that can be seen through, and one that spins out of focus.

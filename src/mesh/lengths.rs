@@ -4,7 +4,7 @@ use micropoly_core::abi::Draw;
 use micropoly_core::camera::FrameOptions;
 use micropoly_core::kernel::dice::Grid;
 use micropoly_core::kernel::dice_any::dice_any;
-use micropoly_core::patch::gregory::patch_count;
+use micropoly_core::patch::instance::{Instance, instance};
 use micropoly_core::schedule::for_each_draw;
 use serde::Serialize;
 
@@ -35,10 +35,11 @@ impl Histogram {
     pub fn of(scene: &Scene, options: &FrameOptions) -> Result<Self> {
         let DeviceScene { frame, objects, patches } = scene.for_device(options)?;
         let (mut out, mut grid) = (Self::default(), Box::new(Grid::default()));
-        for patch in 0..patch_count(&patches) as u32 {
-            let object = &objects[patches[patch as usize].object as usize];
+        for patch in 0..scene.patch_count() as u32 {
+            let Instance { record, object } = instance(&frame, &objects, &patches, patch);
+            let object = &objects[object as usize];
             for_each_draw(&frame, &objects, &patches, patch, |draw, _| {
-                dice_any(&frame, &patches, object, draw, &mut grid);
+                dice_any(&frame, &patches, record, object, draw, &mut grid);
                 out.add(draw, &grid, options.size);
             });
         }

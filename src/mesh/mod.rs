@@ -12,8 +12,9 @@ mod weld;
 use std::path::Path;
 
 use glam::{DAffine3, DMat3, Vec3};
-use micropoly_core::abi::{MeshVertex, Patch};
+use micropoly_core::abi::MeshVertex;
 use micropoly_core::backend::Device;
+use micropoly_core::patch::instance::{Instance, instance};
 use micropoly_core::render::FramePlan;
 use micropoly_core::tessellate::MeshBuffers;
 use rayon::prelude::*;
@@ -83,7 +84,7 @@ impl Mesh {
     }
 
     /// From vertices and indices of a device.
-    fn new(scene: &Scene, patches: &[Patch], vertices: &[MeshVertex], indices: &[u32]) -> Self {
+    fn new(scene: &Scene, seen: &DeviceScene, vertices: &[MeshVertex], indices: &[u32]) -> Self {
         let triangles = indices.as_chunks::<3>().0;
         let mut order: Vec<[&MeshVertex; 3]> = triangles
             .par_iter()
@@ -97,7 +98,8 @@ impl Mesh {
             let triangle = corners.map(|corner| {
                 let (number, is_new) = known.number((corner.patch_id, key(corner)));
                 if is_new {
-                    let object = patches[corner.patch_id as usize].object;
+                    let Instance { object, .. } =
+                        instance(&seen.frame, &seen.objects, &seen.patches, corner.patch_id);
                     mesh.put(corner, &places[object as usize]);
                 }
                 number
@@ -171,7 +173,7 @@ fn fetch<D: Device>(
     let MeshBuffers { vertices, indices, totals, counts } = plan.tessellate(device, &mut buffers)?;
     let vertices: Vec<MeshVertex> = read_all(device, &vertices, totals.vertices as usize)?;
     let indices: Vec<u32> = read_all(device, &indices, 3 * totals.triangles as usize)?;
-    let mesh = Mesh::new(scene, &seen.patches, &vertices, &indices);
+    let mesh = Mesh::new(scene, seen, &vertices, &indices);
     Ok(Mesh { limited: counts.depth_limited, ..mesh })
 }
 

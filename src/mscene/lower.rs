@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 use micropoly_core::abi::{MAX_LIGHTS, MIN_NEAR};
@@ -10,7 +11,8 @@ use micropoly_core::camera::{Camera, Light, Material};
 use super::model::{CameraEntry, LightEntry, LightType, Mesh, MeshPatches, Mscene, ObjectEntry};
 use super::place::{Place, quoted};
 use crate::error::{Error, Result};
-use crate::scene::{Motion, Scene, SceneObject};
+use crate::scene::{Scene, SceneObject};
+use crate::shape::Shape;
 use crate::shot::Blur;
 
 /// Most patches of all objects together: a small file can use one mesh many times.
@@ -19,7 +21,7 @@ const MAX_PATCHES: usize = 10_000_000;
 /// Light from everywhere, which the format does not know: as in scene files.
 const AMBIENT: f32 = 0.1;
 
-type Meshes<'a> = HashMap<&'a str, &'a Mesh>;
+type Meshes<'a> = HashMap<&'a str, Arc<Shape>>;
 
 pub(super) fn scene(path: &Path, file: &Mscene) -> Result<Scene> {
     let camera = camera(path, file)?;
@@ -90,24 +92,20 @@ fn objects(path: &Path, file: &Mscene) -> Result<Vec<SceneObject>> {
     let mut total = 0;
     for (index, entry) in file.objects.iter().enumerate() {
         let place = Place { path, kind: "object", index, count, name: &entry.name };
-        let (patches, gregory) = match &mesh_of(&place, &meshes, entry)?.patches {
-            MeshPatches::Bezier(patches) => (patches.clone(), Vec::new()),
-            MeshPatches::Gregory(patches) => (Vec::new(), patches.clone()),
-        };
-        total += patches.len() + gregory.len();
+        let shape = shape_of(&place, &meshes, entry)?;
+        total += shape.patch_count();
         if total > MAX_PATCHES {
             let problem = format!("with it the scene has more than {MAX_PATCHES} patches");
             return Err(place.wrong(problem, "split the scene"));
         }
         let material = Material { colour: entry.colour, specular: 0.0, gloss: 0, opacity: 1.0 };
         let to_world = entry.placement.to_world();
-        let (displacement, motion) = (None, Motion::default());
-        objects.push(SceneObject { patches, gregory, to_world, material, displacement, motion });
+        objects.push(SceneObject { to_world, ..SceneObject::new(shape, material) });
     }
     Ok(objects)
 }
 
-/// Meshes by name.
+/// Shapes by name: objects may have the same one.
 fn meshes<'a>(path: &'a Path, list: &'a [Mesh]) -> Result<Meshes<'a>> {
     let mut meshes = Meshes::new();
     for (index, mesh) in list.iter().enumerate() {
@@ -115,15 +113,19 @@ fn meshes<'a>(path: &'a Path, list: &'a [Mesh]) -> Result<Meshes<'a>> {
         if mesh.name.is_empty() {
             return Err(place.wrong("it has no name", "give each mesh a name, by which objects find it"));
         }
-        if meshes.insert(&mesh.name, mesh).is_some() {
+        let shape = match &mesh.patches {
+            MeshPatches::Bezier(patches) => Shape::of_bezier(patches.clone()),
+            MeshPatches::Gregory(patches) => Shape::of_gregory(patches.clone()),
+        };
+        if meshes.insert(&mesh.name, Arc::new(shape)).is_some() {
             return Err(place.wrong("an earlier mesh has the same name", "give each mesh a name of its own"));
         }
     }
     Ok(meshes)
 }
 
-fn mesh_of<'a>(place: &Place<'_>, meshes: &Meshes<'a>, object: &ObjectEntry) -> Result<&'a Mesh> {
-    meshes.get(object.mesh.as_str()).copied().ok_or_else(|| {
+fn shape_of(place: &Place<'_>, meshes: &Meshes<'_>, object: &ObjectEntry) -> Result<Arc<Shape>> {
+    meshes.get(object.mesh.as_str()).cloned().ok_or_else(|| {
         let problem = format!("there is no mesh {}", quoted(&object.mesh));
         place.wrong(problem, "name a mesh of the same file")
     })

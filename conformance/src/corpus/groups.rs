@@ -8,7 +8,8 @@ use micropoly_core::abi::{
 use micropoly_core::kernel::balance;
 use micropoly_core::stage::Items;
 
-use super::{PATCHES, Parts, control, descendant, empty, scene, words};
+use super::scenes::{PATCHES, scene};
+use super::{Parts, control, descendant, empty, words};
 
 /// One of some numbers.
 fn one_of<const N: usize>(random: &mut fastrand::Rng, numbers: [u32; N]) -> u32 {

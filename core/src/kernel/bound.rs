@@ -4,57 +4,57 @@
 //! is ever culled, and the control polygons are at least as long as the curves they control.
 
 use crate::abi::{
-    CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_WEBER, FLAG_WHOLE, Frame, LENGTH_TINY, MAX_SPLITS, Object, Patch,
-    ROUNDING, SPLIT_U, SPLIT_V, Surface, Verdict,
+    CULL, DRAW, DRAW_LIMITED, FAR_OFF, FLAG_FLAT, FLAG_WEBER, FLAG_WHOLE, Frame, JOINED_SPLITS,
+    KIND_HALF_SHIFT, KIND_HALVED, KIND_RATIONAL, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING, SPLIT_U,
+    SPLIT_V, Surface, Verdict,
 };
 use crate::border::Side;
-use crate::kernel::dice::position_at;
 use crate::kernel::dice_gregory::evaluate_gregory;
+use crate::kernel::flat::{View, enclosed, flatness};
 use crate::kernel::project::perspective;
-use crate::kernel::sides::{Lengths, Strays, divide, polygon, rates, sides_of_gregory};
+use crate::kernel::sides::{Lengths, Strays, divide, polygon, rates, sides_of_gregory, with_half_lines};
 use crate::kernel::weber;
 use crate::num::{add, clamp, float, floor, largest3, max, min, mul, neg, recip, scale3, sqrt, sub};
-use crate::patch::net::fold;
-use crate::patch::{Faces, Net};
+use crate::patch::half::{Line, half_lines, joined_position};
+use crate::patch::instance::instance;
+use crate::patch::net::{fold, range_of};
+use crate::patch::{Faces, Net, Weights};
 
 /// The verdict on one surface of any patch, by the rules of the frame's profile.
 #[inline(always)]
 #[must_use]
 pub fn bound_any(frame: &Frame, objects: &[Object], patches: &[Patch], surface: Surface) -> Verdict {
-    let patch = &patches[surface.patch_id as usize];
-    let object = &objects[patch.object as usize];
-    let record = if patch.faces > 0 { Some(&patches[patch.faces as usize]) } else { None };
-    match record {
-        _ if frame.flags & FLAG_WEBER != 0 => bound_weber(frame, patch, record, object, surface),
-        Some(record) => bound_gregory(frame, patch, record, object, surface),
-        None => bound(frame, patch, object, surface),
+    let known = instance(frame, objects, patches, surface.patch_id);
+    let patch = &patches[known.record as usize];
+    let object = &objects[known.object as usize];
+    if frame.flags & FLAG_WEBER != 0 {
+        return bound_weber(frame, patches, patch, object, surface);
     }
+    judge(frame, surface, &Hull::of(frame, patches, patch, object, surface))
 }
 
-/// The verdict on one surface of a Bézier patch.
+/// The verdict on one surface of a Bézier patch, whose sides are its own.
 #[inline(always)]
 #[must_use]
 pub fn bound(frame: &Frame, patch: &Patch, object: &Object, surface: Surface) -> Verdict {
-    judge(frame, surface, &Hull::of_bezier(patch, object, surface))
-}
-
-/// The verdict on one surface of a Gregory patch: the hull of a Bézier patch that is near it everywhere.
-#[must_use]
-pub fn bound_gregory(
-    frame: &Frame,
-    patch: &Patch,
-    record: &Patch,
-    object: &Object,
-    surface: Surface,
-) -> Verdict {
-    judge(frame, surface, &Hull::of_gregory(frame, patch, record, object, surface))
+    judge(frame, surface, &Hull::of_bezier(frame, &[], patch, object, surface))
 }
 
 /// Control hull of a surface, and how far outside of it the surface can be.
-struct Hull {
+struct Hull<'a> {
+    /// All patches, for what lies on halves of their sides.
+    patches: &'a [Patch],
+    patch: &'a Patch,
+    object: &'a Object,
     /// Of the whole patch.
     whole: Net,
     part: Net,
+    /// Of all that the surface's vertices enclose, if that is more than the surface: only where it is to be flat.
+    more: Option<Net>,
+    /// The weights of a rational patch.
+    weights: Option<Weights>,
+    /// Pieces of larger patches' sides, where the surface's sides are halves of them.
+    lines: [Option<Line>; 4],
     /// What rounding can do, in eye space.
     slack: f32,
     /// What displacement can do, along any axis of eye space.
@@ -72,16 +72,89 @@ struct Apart {
     follower: Net,
 }
 
-impl Hull {
+/// What a surface encloses beyond itself, where it has to be flat.
+#[inline(always)]
+fn more_of(frame: &Frame, surface: Surface) -> Option<[[u32; 2]; 2]> {
+    if frame.flags & FLAG_FLAT == 0 || surface.keeps_its_corners() { None } else { Some(enclosed(surface)) }
+}
+
+impl<'a> Hull<'a> {
     #[inline(always)]
-    fn of_bezier(patch: &Patch, object: &Object, surface: Surface) -> Self {
-        let whole = Net::in_eye_space(patch, object);
-        let slack = mul(whole.extent(), ROUNDING);
-        Self { part: whole.restricted(surface), whole, slack, reach: object.reach, apart: None }
+    fn of(
+        frame: &Frame,
+        patches: &'a [Patch],
+        patch: &'a Patch,
+        object: &'a Object,
+        surface: Surface,
+    ) -> Self {
+        if patch.faces == 0 {
+            return Self::of_bezier(frame, patches, patch, object, surface);
+        }
+        let record = &patches[patch.faces as usize];
+        if patch.kind & KIND_RATIONAL != 0 {
+            return Self::of_rational(frame, patch, record, object, surface);
+        }
+        Self::of_gregory(frame, patch, record, object, surface)
     }
 
     #[inline(always)]
-    fn of_gregory(frame: &Frame, patch: &Patch, record: &Patch, object: &Object, surface: Surface) -> Self {
+    fn of_bezier(
+        frame: &Frame,
+        patches: &'a [Patch],
+        patch: &'a Patch,
+        object: &'a Object,
+        surface: Surface,
+    ) -> Self {
+        let whole = Net::in_eye_space(patch, object);
+        Self {
+            patches,
+            patch,
+            object,
+            part: whole.restricted(surface),
+            more: more_of(frame, surface).map(|range| whole.between(range)),
+            weights: None,
+            lines: half_lines(patches, object, patch, surface),
+            slack: mul(whole.extent(), ROUNDING),
+            reach: object.reach,
+            apart: None,
+            whole,
+        }
+    }
+
+    #[inline(never)]
+    fn of_rational(
+        frame: &Frame,
+        patch: &'a Patch,
+        record: &Patch,
+        object: &'a Object,
+        surface: Surface,
+    ) -> Self {
+        let (whole, weights) = (Net::in_eye_space(patch, object), Weights::of(record));
+        Self {
+            patches: &[],
+            patch,
+            object,
+            part: weights.between(&whole, range_of(surface)),
+            more: more_of(frame, surface).map(|range| weights.between(&whole, range)),
+            weights: Some(weights),
+            lines: [None; 4],
+            // Numerator and denominator each round, and so does the quotient.
+            slack: mul(mul(whole.extent(), ROUNDING), 4.0),
+            reach: object.reach,
+            apart: None,
+            whole,
+        }
+    }
+
+    /// The hull of a Bézier patch that is near a Gregory patch everywhere.
+    #[inline(never)]
+    fn of_gregory(
+        frame: &Frame,
+        patch: &'a Patch,
+        record: &Patch,
+        object: &'a Object,
+        surface: Surface,
+    ) -> Self {
         let mut whole = Net::in_eye_space(patch, object);
         let faces = Faces::in_eye_space(record, object);
         let slack = mul(max(whole.extent(), faces.extent()), ROUNDING);
@@ -90,7 +163,19 @@ impl Hull {
         let part = whole.restricted(surface);
         let mut follower = part;
         faces.follow(&mut follower, surface, exchanged);
-        Self { whole, part, slack, reach: object.reach, apart: Some(Apart { faces, spread, follower }) }
+        Self {
+            patches: &[],
+            patch,
+            object,
+            part,
+            more: more_of(frame, surface).map(|range| whole.between(range)),
+            weights: None,
+            lines: [None; 4],
+            slack,
+            reach: object.reach,
+            apart: Some(Apart { faces, spread, follower }),
+            whole,
+        }
     }
 
     /// Largest distance, along any axis, between what is drawn and the surface whose hull it is.
@@ -131,12 +216,11 @@ impl Hull {
     /// Corners that have strayed from the surface.
     #[inline(always)]
     fn strays(&self, frame: &Frame, surface: Surface) -> Option<Strays> {
-        match &self.apart {
-            None => Strays::of(frame, surface, self.reach, |u, v| position_at(&self.whole, u, v)),
-            Some(apart) => Strays::of(frame, surface, self.reach, |u, v| {
-                evaluate_gregory(&self.whole, &apart.faces, frame, u, v).point
-            }),
-        }
+        Strays::of(frame, surface, self.reach, |u, v| match (&self.apart, &self.weights) {
+            (None, None) => joined_position(self.patches, self.object, self.patch, &self.whole, u, v),
+            (None, Some(weights)) => weights.evaluate(&self.whole, u, v).point,
+            (Some(apart), _) => evaluate_gregory(&self.whole, &apart.faces, frame, u, v).point,
+        })
     }
 
     /// What the image shows of a hull that lies beyond the near plane, `nearest` away.
@@ -152,14 +236,54 @@ impl Hull {
     /// Lengths on screen of a hull whose control points are measured to be at `points`.
     #[inline(always)]
     fn lengths(&self, frame: &Frame, surface: Surface, points: &Net) -> Lengths {
+        let near = self.measured_from(frame);
+        if frame.flags & FLAG_FLAT != 0 {
+            return self.flatness(frame, surface);
+        }
         let own = Lengths::new(polygons_u(points), polygons_v(points));
         let Some(apart) = &self.apart else {
-            return own;
+            return with_half_lines(frame, near, &self.lines, own);
         };
-        let near = self.measured_from(frame);
         let sides = sides_of_gregory(frame, near, &self.whole, &apart.faces, surface, own.sides);
         let points = measured(frame, near, &apart.follower);
         Lengths::new(polygons_u(&points), polygons_v(&points)).with_sides(sides)
+    }
+
+    /// How far a surface and its sides are from being flat.
+    #[inline(never)]
+    fn flatness(&self, frame: &Frame, surface: Surface) -> Lengths {
+        let near = self.measured_from(frame);
+        let view = View { frame, near, is_cut: false };
+        let own = flatness(view, &self.part);
+        let own = match &self.apart {
+            None => with_half_lines(frame, near, &self.lines, own),
+            Some(apart) => {
+                let sides = sides_of_gregory(frame, near, &self.whole, &apart.faces, surface, own.sides);
+                flatness(view, &apart.follower).with_sides(sides)
+            }
+        };
+        self.with_more(view, own)
+    }
+
+    /// With what is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it.
+    #[inline(always)]
+    fn with_more(&self, view: View<'_>, own: Lengths) -> Lengths {
+        let Some(more) = &self.more else { return own };
+        let most = mul(2.0, flatness(view, more).u);
+        Lengths { u: most, v: most, ..own }.with_sides(own.sides)
+    }
+
+    /// Lengths along u and along v, in pixels, of a surface that crosses the near plane: as if all of it were there, and
+    /// turned to the eye. No part of it that can be seen is longer. Or how far it is from being flat.
+    #[inline(always)]
+    fn extents_if_cut(&self, frame: &Frame, near: f32) -> (f32, f32) {
+        let own = if frame.flags & FLAG_FLAT != 0 {
+            let view = View { frame, near, is_cut: true };
+            self.with_more(view, flatness(view, &self.part))
+        } else {
+            lengths_if_cut(frame, near, &self.part)
+        };
+        (own.u, own.v)
     }
 }
 
@@ -238,20 +362,71 @@ impl Seen {
 
 /// The verdict on a surface in view that is so long.
 #[inline(always)]
-pub(super) fn by_length(frame: &Frame, surface: Surface, lengths: &Lengths, pixels: PixelBox) -> Verdict {
-    let code = by_extents(frame, surface, (lengths.u, lengths.v));
-    with_sides(frame, surface, lengths, verdict(code, pixels))
+pub(super) fn by_length(
+    frame: &Frame,
+    surface: Surface,
+    kind: u32,
+    lengths: &Lengths,
+    pixels: PixelBox,
+) -> Verdict {
+    let code = by_extents(frame, surface, kind, (lengths.u, lengths.v));
+    with_sides(frame, surface, kind, lengths, verdict(code, pixels))
 }
 
+/// What becomes of a surface in view, of a patch of this kind, that is so long.
 #[inline(always)]
-fn by_extents(frame: &Frame, surface: Surface, extents: (f32, f32)) -> u32 {
-    if max(extents.0, extents.1) <= frame.bound { DRAW } else { refine(frame, surface, extents) }
+fn by_extents(frame: &Frame, surface: Surface, kind: u32, extents: (f32, f32)) -> u32 {
+    if frame.flags & FLAG_FLAT != 0 {
+        return quartered(frame, surface, kind, extents.0);
+    }
+    if is_halved(kind, 3) && surface.u_level() == 0 {
+        return if may_split(frame, surface, 1) { SPLIT_U } else { DRAW_LIMITED };
+    }
+    if is_halved(kind, 12) && surface.v_level() == 0 {
+        return if may_split(frame, surface, 1) { SPLIT_V } else { DRAW_LIMITED };
+    }
+    if max(extents.0, extents.1) <= frame.bound { DRAW } else { refine(frame, surface, kind, extents) }
+}
+
+/// Does a patch of this kind have two others beside one of these sides, a bit a side?
+#[inline(always)]
+const fn is_halved(kind: u32, sides: u32) -> bool {
+    kind & KIND_HALVED & sides != 0
+}
+
+/// Is there a level for each of so many splits?
+#[inline(always)]
+const fn may_split(frame: &Frame, surface: Surface, times: u32) -> bool {
+    surface.level() + times < frame.levels
+}
+
+/// Most halvings of a patch of this kind along either parameter.
+#[inline(always)]
+const fn most_splits(kind: u32) -> u32 {
+    if kind & (KIND_HALVED | KIND_HALVED << KIND_HALF_SHIFT) != 0 { JOINED_SPLITS } else { MAX_SPLITS }
+}
+
+/// What becomes of a surface that is so far from being flat: it is split into four, in two steps, so that a stack has room
+/// for it as for any other.
+#[inline(always)]
+fn quartered(frame: &Frame, surface: Surface, kind: u32, off: f32) -> u32 {
+    if surface.u_level() > surface.v_level() {
+        return SPLIT_V;
+    }
+    let is_whole = surface.level() == 0 && is_halved(kind, KIND_HALVED);
+    if off <= frame.bound && !is_whole {
+        DRAW
+    } else if surface.u_level() < most_splits(kind) && may_split(frame, surface, 2) {
+        SPLIT_U
+    } else {
+        DRAW_LIMITED
+    }
 }
 
 /// The verdict, with sides and rates.
 #[inline(always)]
-fn with_sides(frame: &Frame, surface: Surface, lengths: &Lengths, verdict: Verdict) -> Verdict {
-    let sides = divide(frame, surface, lengths, verdict.code);
+fn with_sides(frame: &Frame, surface: Surface, kind: u32, lengths: &Lengths, verdict: Verdict) -> Verdict {
+    let sides = divide(frame, surface, kind, lengths, verdict.code);
     let is_split = verdict.code == SPLIT_U || verdict.code == SPLIT_V;
     let rates = if is_split { [0; 2] } else { rates(frame, surface, &sides, lengths) };
     verdict.with_sides(sides, rates)
@@ -260,10 +435,10 @@ fn with_sides(frame: &Frame, surface: Surface, lengths: &Lengths, verdict: Verdi
 /// The verdict on the surface inside a hull.
 #[inline(always)]
 fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
-    let near = hull.measured_from(frame);
+    let (near, kind) = (hull.measured_from(frame), hull.patch.kind);
     if frame.flags & FLAG_WHOLE != 0 {
         let lengths = hull.lengths(frame, surface, &measured(frame, near, &hull.part));
-        return by_length(frame, surface, &lengths, PixelBox::whole(frame));
+        return by_length(frame, surface, kind, &lengths, PixelBox::whole(frame));
     }
     let (nearest, farthest) = (hull.nearest(), hull.farthest());
     let strays = hull.strays(frame, surface);
@@ -283,8 +458,9 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
         let pixels =
             if strays.is_some() { PixelBox::whole(frame) } else { pixels_if_cut(frame, hull, farthest) };
         let is_cut = hull.nearest_smooth() < near;
-        let extents = if is_cut { extents_if_cut(frame, near, &hull.part) } else { (lengths.u, lengths.v) };
-        return with_sides(frame, surface, &lengths, verdict(by_extents(frame, surface, extents), pixels));
+        let extents = if is_cut { hull.extents_if_cut(frame, near) } else { (lengths.u, lengths.v) };
+        let code = by_extents(frame, surface, kind, extents);
+        return with_sides(frame, surface, kind, &lengths, verdict(code, pixels));
     }
     let pixels = match strays {
         Some(strays) if min(nearest, strays.nearest) < frame.near => PixelBox::whole(frame),
@@ -293,7 +469,7 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
     if pixels.is_empty() {
         return Verdict::CULLED;
     }
-    by_length(frame, surface, &lengths, pixels)
+    by_length(frame, surface, kind, &lengths, pixels)
 }
 
 /// The pixels that drawing the surface inside a hull can touch.
@@ -310,18 +486,16 @@ fn pixels_of(frame: &Frame, hull: &Hull) -> PixelBox {
 /// The verdict by the rules of Weber's program.
 fn bound_weber(
     frame: &Frame,
+    patches: &[Patch],
     patch: &Patch,
-    record: Option<&Patch>,
     object: &Object,
     surface: Surface,
 ) -> Verdict {
     let net = Net::in_eye_space(patch, object);
+    let record = if patch.faces > 0 { Some(&patches[patch.faces as usize]) } else { None };
     let faces = record.map(|record| Faces::in_eye_space(record, object));
     let code = weber::code(frame, &net, faces.as_ref(), surface);
-    let hull = match record {
-        Some(record) => Hull::of_gregory(frame, patch, record, object, surface),
-        None => Hull::of_bezier(patch, object, surface),
-    };
+    let hull = Hull::of(frame, patches, patch, object, surface);
     let pixels = if code == DRAW { pixels_of(frame, &hull) } else { PixelBox::EMPTY };
     verdict(code, pixels).with_sides([Side::LIVE; 4], [frame.rate; 2])
 }
@@ -347,11 +521,11 @@ fn verdict(code: u32, pixels: PixelBox) -> Verdict {
 /// Splits along the direction that wants it more; at the deepest level, or where the range cannot be
 /// halved any further, the surface is drawn as it is. The other direction is tried when it too is too long.
 #[inline(always)]
-fn refine(frame: &Frame, surface: Surface, (u, v): (f32, f32)) -> u32 {
-    let open_u = surface.u_level() < MAX_SPLITS;
-    let open_v = surface.v_level() < MAX_SPLITS;
+fn refine(frame: &Frame, surface: Surface, kind: u32, (u, v): (f32, f32)) -> u32 {
+    let open_u = surface.u_level() < most_splits(kind);
+    let open_v = surface.v_level() < most_splits(kind);
     let too_long = |extent| extent > frame.bound;
-    if surface.level() + 1 >= frame.levels {
+    if !may_split(frame, surface, 1) {
         DRAW_LIMITED
     } else if u > v {
         if open_u {
@@ -391,19 +565,22 @@ fn beyond(frame: &Frame, part: &Net, c: &[f32; 16], half: f32, slack: f32) -> bo
     add(fold(&low, max), tolerance) < 0.0 || add(fold(&high, max), tolerance) < 0.0
 }
 
-/// Lengths along u and along v, in pixels, of a surface that crosses the near plane: as if all of it were there, and
-/// turned to the eye. No part of it that can be seen is longer.
+/// Lengths of a surface as if all of it were at the near plane, and turned to the eye.
 #[inline(always)]
-fn extents_if_cut(frame: &Frame, near: f32, part: &Net) -> (f32, f32) {
-    let scale = mul(frame.focal, recip(near));
+fn lengths_if_cut(frame: &Frame, near: f32, part: &Net) -> Lengths {
     let mut points = *part;
     for l in 0..16 {
-        for c in [&mut points.x[l], &mut points.y[l], &mut points.z[l]] {
-            *c = clamp(mul(*c, scale), neg(FAR_OFF), FAR_OFF);
-        }
+        [points.x[l], points.y[l], points.z[l]] =
+            point_if_cut(frame, near, [part.x[l], part.y[l], part.z[l]]);
     }
-    let lengths = Lengths::new(polygons_u(&points), polygons_v(&points));
-    (lengths.u, lengths.v)
+    Lengths::new(polygons_u(&points), polygons_v(&points))
+}
+
+/// Where a point is for that.
+#[inline(always)]
+pub(super) fn point_if_cut(frame: &Frame, near: f32, point: [f32; 3]) -> [f32; 3] {
+    let scale = mul(frame.focal, recip(near));
+    point.map(|c| clamp(mul(c, scale), neg(FAR_OFF), FAR_OFF))
 }
 
 /// The pixels that drawing a surface can touch of which parts lie as near as the near plane.

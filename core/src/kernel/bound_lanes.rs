@@ -4,13 +4,14 @@
 //! (patches of other kinds, the near plane, the profile of Weber's program) is left to `bound_any`, surface by
 //! surface.
 
-use crate::abi::{FLAG_WEBER, FLAG_WHOLE, Frame, Object, Patch, ROUNDING, Surface, Verdict};
+use crate::abi::{FLAG_FLAT, FLAG_WEBER, FLAG_WHOLE, Frame, Object, Patch, ROUNDING, Surface, Verdict};
 use crate::kernel::bound::{Reach, Seen, bound_any, by_length, distance, margin, point_on_screen};
 use crate::kernel::dice::position_at;
 use crate::kernel::sides::{Lengths, Strays, polygon};
 use crate::num::{add, max, min, mul, neg};
 use crate::patch::Net;
 use crate::patch::bezier::{blend4, blossom};
+use crate::patch::instance::{Instance, instance};
 use crate::patch::net::fold;
 
 /// Surfaces that are bounded at once.
@@ -78,10 +79,10 @@ pub fn bound_lanes(
     lanes: &mut Lanes,
 ) {
     for (surfaces, verdicts) in surfaces.chunks(LANES).zip(verdicts.chunks_mut(LANES)) {
-        if frame.flags & (FLAG_WEBER | FLAG_WHOLE) != 0 || surfaces.len() < WORTH_IT {
+        if frame.flags & (FLAG_FLAT | FLAG_WEBER | FLAG_WHOLE) != 0 || surfaces.len() < WORTH_IT {
             lanes.alone = [true; LANES];
         } else {
-            lanes.load(objects, patches, surfaces);
+            lanes.load(frame, objects, patches, surfaces);
             lanes.measure(frame);
         }
         for (l, (surface, verdict)) in surfaces.iter().zip(verdicts).enumerate() {
@@ -98,16 +99,17 @@ pub fn bound_lanes(
 impl Lanes {
     /// A surface a lane; the lanes that are left over keep what they have.
     #[inline(always)]
-    fn load(&mut self, objects: &[Object], patches: &[Patch], surfaces: &[Surface]) {
+    fn load(&mut self, frame: &Frame, objects: &[Object], patches: &[Patch], surfaces: &[Surface]) {
         let mut known = None;
         for (l, surface) in surfaces.iter().enumerate() {
-            let patch = &patches[surface.patch_id as usize];
-            self.alone[l] = patch.faces > 0 || objects[patch.object as usize].reach > 0.0;
+            let Instance { record, object } = instance(frame, objects, patches, surface.patch_id);
+            let (patch, object) = (&patches[record as usize], &objects[object as usize]);
+            self.alone[l] = patch.faces > 0 || patch.kind > 0 || object.reach > 0.0;
             // Neighbours on the stack are mostly of one patch.
             let (_, net, slack) = match known {
                 Some(last @ (patch_id, _, _)) if patch_id == surface.patch_id => last,
                 _ => {
-                    let net = Net::in_eye_space(patch, &objects[patch.object as usize]);
+                    let net = Net::in_eye_space(patch, object);
                     (surface.patch_id, net, mul(net.extent(), ROUNDING))
                 }
             };
@@ -195,7 +197,7 @@ impl Lanes {
             let [a, b, c, d] = &self.lengths[axis];
             [a[l], b[l], c[l], d[l]]
         };
-        Some(by_length(frame, surface, &Lengths::new(polygons(0), polygons(1)), pixels))
+        Some(by_length(frame, surface, 0, &Lengths::new(polygons(0), polygons(1)), pixels))
     }
 
     #[inline(always)]
@@ -244,8 +246,8 @@ fn polygons(seen: &[Points; 2], first: [usize; 4], step: usize, out: &mut [Lane;
 /// Corners that have strayed from a surface of a Bézier patch that is not displaced.
 #[inline(never)]
 fn strays(frame: &Frame, objects: &[Object], patches: &[Patch], surface: Surface) -> Option<Strays> {
-    let patch = &patches[surface.patch_id as usize];
-    let net = Net::in_eye_space(patch, &objects[patch.object as usize]);
+    let Instance { record, object } = instance(frame, objects, patches, surface.patch_id);
+    let net = Net::in_eye_space(&patches[record as usize], &objects[object as usize]);
     Strays::of(frame, surface, 0.0, |u, v| position_at(&net, u, v))
 }
 

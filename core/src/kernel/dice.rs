@@ -96,6 +96,13 @@ impl Grid {
 /// `net` is the patch's control net in eye space.
 #[inline(always)]
 pub fn dice(net: &Net, frame: &Frame, draw: Draw, grid: &mut Grid) {
+    dice_net(net, draw, grid);
+    finish_grid(net, frame, draw, grid);
+}
+
+/// Positions and tangents of a drawn surface.
+#[inline(always)]
+pub(super) fn dice_net(net: &Net, draw: Draw, grid: &mut Grid) {
     prepare_grid(draw, grid);
     let (rate_u, rate_v) = (draw.rate_u(), draw.rate_v());
     let mut columns = [Weights::<LANES>::ZERO; BLOCKS];
@@ -116,7 +123,6 @@ pub fn dice(net: &Net, frame: &Frame, draw: Draw, grid: &mut Grid) {
     for block in moved.blocks() {
         evaluate_moved(net, &moved, block, grid);
     }
-    finish_grid(net, frame, draw, grid);
 }
 
 /// Vertices of a grid's borders that need not be where a regular grid has them.

@@ -2,7 +2,8 @@
 //! vertex. On borders they have no weight, so border vertices are those of the net alone, bit by bit.
 
 use crate::abi::{Draw, FLAG_WEBER, Frame};
-use crate::kernel::dice::{Grid, LANES, Vertex, finish_grid, prepare_grid, store};
+use crate::kernel::dice::{Grid, Vertex, finish_grid};
+use crate::kernel::dice_rational::dice_each;
 use crate::num::{add, mul, scale3, sub};
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope, param};
 use crate::patch::gregory::{Blend, INNER, blends, weber_blends};
@@ -11,27 +12,7 @@ use crate::patch::{Faces, Net};
 /// Fills positions, normals and snapped vertices of a surface of a Gregory patch, as
 /// [`crate::kernel::dice::dice`] does of a Bézier patch.
 pub fn dice_gregory(net: &Net, faces: &Faces, frame: &Frame, draw: Draw, grid: &mut Grid) {
-    prepare_grid(draw, grid);
-    let (rate_u, rate_v) = (draw.rate_u(), draw.rate_v());
-    for row in 0..=rate_v {
-        for block in (0..=rate_u).step_by(LANES) {
-            let at = (row * (rate_u + 1) + block) as usize;
-            let mut lanes = [[[0.0; LANES]; 3]; 3];
-            for l in 0..LANES {
-                // Beyond the row's end, where the next row will be, its last vertex is repeated.
-                let [u, v] = draw.vertex(row, rate_u.min(block + l as u32));
-                let Vertex { point, du, dv } = evaluate_gregory(net, faces, frame, u, v);
-                for k in 0..3 {
-                    (lanes[0][k][l], lanes[1][k][l], lanes[2][k][l]) = (point[k], du[k], dv[k]);
-                }
-            }
-            for k in 0..3 {
-                store(&mut grid.position[k], at, &lanes[0][k]);
-                store(&mut grid.tangents[0][k], at, &lanes[1][k]);
-                store(&mut grid.tangents[1][k], at, &lanes[2][k]);
-            }
-        }
-    }
+    dice_each(draw, grid, |u, v| evaluate_gregory(net, faces, frame, u, v));
     finish_grid(net, frame, draw, grid);
 }
 

@@ -6,8 +6,8 @@
 //! Its normal is tilted by the slope of the bumps (Blinn 1978): right to first order in height times curvature.
 
 use crate::abi::{
-    Draw, FLAT, Frame, HASH_FIRST, HASH_OCTAVE, HASH_SECOND, HASH_X, HASH_Y, HASH_Z, LATTICE_END,
-    LATTICE_NEAR, LATTICE_STEP, Object, Patch, SHADE_TINY,
+    Draw, FLAT, Frame, HASH_FIRST, HASH_OCTAVE, HASH_SECOND, HASH_X, HASH_Y, HASH_Z, KIND_RATIONAL,
+    LATTICE_END, LATTICE_NEAR, LATTICE_STEP, Object, Patch, SHADE_TINY,
 };
 use crate::kernel::dice::{
     Grid, LANES, Vertex, evaluate_bezier, load3, normal_of, prepare_grid, project_all, size, store,
@@ -18,8 +18,9 @@ use crate::num::{
     unit_scale,
 };
 use crate::patch::gregory::mix;
+use crate::patch::instance::{Instance, instance};
 use crate::patch::owner::Owner;
-use crate::patch::{Faces, Net};
+use crate::patch::{Faces, Net, Weights};
 
 /// A number that varies in space, and its derivatives along x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,9 +114,17 @@ const fn mixed(hash: u32) -> u32 {
 #[derive(Clone, Copy, Debug)]
 struct Source {
     net: Net,
-    faces: Option<Faces>,
+    more: More,
     /// Tangents no longer than this have vanished.
     flat: f32,
+}
+
+/// What some kinds of patches have besides their control points.
+#[derive(Clone, Copy, Debug)]
+enum More {
+    Nothing,
+    Faces(Faces),
+    Weights(Weights),
 }
 
 impl Source {
@@ -123,8 +132,26 @@ impl Source {
     fn new(patches: &[Patch], patch_id: u32) -> Self {
         let patch = &patches[patch_id as usize];
         let net = Net::in_object_space(patch);
-        let record = if patch.faces > 0 { Some(&patches[patch.faces as usize]) } else { None };
-        Self { faces: record.map(Faces::in_object_space), flat: mul(size(&net), FLAT), net }
+        let more = match patch.faces {
+            0 => More::Nothing,
+            record if patch.kind & KIND_RATIONAL != 0 => {
+                More::Weights(Weights::of(&patches[record as usize]))
+            }
+            record => More::Faces(Faces::in_object_space(&patches[record as usize])),
+        };
+        Self { more, flat: mul(size(&net), FLAT), net }
+    }
+
+    /// The same seen from the eye.
+    #[inline(always)]
+    fn in_eye_space(patches: &[Patch], patch_id: u32, object: &Object) -> Self {
+        let patch = &patches[patch_id as usize];
+        let net = Net::in_eye_space(patch, object);
+        let more = match Self::new(patches, patch_id).more {
+            More::Faces(_) => More::Faces(Faces::in_eye_space(&patches[patch.faces as usize], object)),
+            same => same,
+        };
+        Self { more, flat: mul(size(&net), FLAT), net }
     }
 
     /// The point at a parameter, and the unit normal there.
@@ -136,9 +163,10 @@ impl Source {
 
     #[inline(always)]
     fn evaluate(&self, frame: &Frame, u: u32, v: u32) -> Vertex {
-        match &self.faces {
-            None => evaluate_bezier(&self.net, u, v),
-            Some(faces) => evaluate_gregory(&self.net, faces, frame, u, v),
+        match &self.more {
+            More::Nothing => evaluate_bezier(&self.net, u, v),
+            More::Faces(faces) => evaluate_gregory(&self.net, faces, frame, u, v),
+            More::Weights(weights) => weights.evaluate(&self.net, u, v),
         }
     }
 }
@@ -146,9 +174,16 @@ impl Source {
 /// Fills positions, normals and snapped vertices of a surface of an object that is displaced, as
 /// [`crate::kernel::dice::dice`] does of one that is not.
 #[inline(always)]
-pub fn dice_displaced(frame: &Frame, patches: &[Patch], object: &Object, draw: Draw, grid: &mut Grid) {
+pub fn dice_displaced(
+    frame: &Frame,
+    patches: &[Patch],
+    record: u32,
+    object: &Object,
+    draw: Draw,
+    grid: &mut Grid,
+) {
     prepare_grid(draw, grid);
-    dice_smooth(frame, patches, draw, grid);
+    dice_smooth(frame, patches, record, draw, grid);
     for block in grid.blocks() {
         displace_block(object, block, grid);
     }
@@ -157,13 +192,13 @@ pub fn dice_displaced(frame: &Frame, patches: &[Patch], object: &Object, draw: D
 
 /// Positions and unit normals before they are displaced, each on its owner, in the space of the object.
 #[inline(never)]
-fn dice_smooth(frame: &Frame, patches: &[Patch], draw: Draw, grid: &mut Grid) {
-    let patch = &patches[draw.patch_id as usize];
-    let own = Source::new(patches, draw.patch_id);
+fn dice_smooth(frame: &Frame, patches: &[Patch], record: u32, draw: Draw, grid: &mut Grid) {
+    let patch = &patches[record as usize];
+    let own = Source::new(patches, record);
     for at in 0..grid.stride * grid.rows {
         let [u, v] = draw.vertex((at / grid.stride) as u32, (at % grid.stride) as u32);
-        let Owner { patch_id, u, v } = patch.owner(draw.patch_id, u, v);
-        let (point, normal) = if patch_id == draw.patch_id {
+        let Owner { patch_id, u, v } = patch.owner(record, u, v);
+        let (point, normal) = if patch_id == record {
             own.vertex(frame, u, v)
         } else {
             Source::new(patches, patch_id).vertex(frame, u, v)
@@ -176,29 +211,22 @@ fn dice_smooth(frame: &Frame, patches: &[Patch], draw: Draw, grid: &mut Grid) {
 #[must_use]
 pub fn normal_at(
     frame: &Frame,
+    objects: &[Object],
     patches: &[Patch],
-    object: &Object,
     patch_id: u32,
     u: u32,
     v: u32,
 ) -> [f32; 3] {
+    let Instance { record, object } = instance(frame, objects, patches, patch_id);
+    let object = &objects[object as usize];
     if object.reach > 0.0 {
-        let Owner { patch_id, u, v } = patches[patch_id as usize].owner(patch_id, u, v);
+        let Owner { patch_id, u, v } = patches[record as usize].owner(record, u, v);
         let (point, normal) = Source::new(patches, patch_id).vertex(frame, u, v);
         let slope = lane(&bump(object, &point.map(|k| [k; LANES])).1, 0);
         let along = add3(slope, scale3(normal, neg(dot3(slope, normal))));
         return object.normal_to_eye(add3(normal, scale3(along, -1.0)));
     }
-    let patch = &patches[patch_id as usize];
-    let net = Net::in_eye_space(patch, object);
-    let vertex = match patch.faces {
-        0 => evaluate_bezier(&net, u, v),
-        record => {
-            let faces = Faces::in_eye_space(&patches[record as usize], object);
-            evaluate_gregory(&net, &faces, frame, u, v)
-        }
-    };
-    normal_of(&net, &vertex, u, v, mul(size(&net), FLAT))
+    Source::in_eye_space(patches, record, object).vertex(frame, u, v).1
 }
 
 /// Displaces [`LANES`] vertices, and moves them to eye space.

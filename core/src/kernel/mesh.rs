@@ -8,6 +8,7 @@ use crate::abi::{Control, Draw, Frame, MeshPlace, MeshTotals, MeshVertex, Object
 use crate::kernel::dice::Grid;
 use crate::kernel::dice_any::dice_any;
 use crate::patch::bezier::param;
+use crate::patch::instance::{Instance, instance};
 
 /// Indices of a micropolygon.
 pub const QUAD_INDICES: usize = 6;
@@ -49,9 +50,10 @@ pub fn places(control: &Control, draws: &[Draw], places: &mut [MeshPlace], total
 /// Dices a draw for a mesh: in the space of its object.
 #[inline(always)]
 pub fn dice_in_place(frame: &Frame, objects: &[Object], patches: &[Patch], draw: Draw, grid: &mut Grid) {
-    let object = &objects[patches[draw.patch_id as usize].object as usize];
+    let Instance { record, object } = instance(frame, objects, patches, draw.patch_id);
+    let object = &objects[object as usize];
     let stays = Object { to_eye: AS_IT_IS, normal_to_eye: NORMALS_AS_THEY_ARE, ..*object };
-    dice_any(frame, patches, &stays, draw, grid);
+    dice_any(frame, patches, record, &stays, draw, grid);
 }
 
 /// The mesh of a draw that is diced: `vertices` has room for [`Draw::vertices`], `indices` for three times

@@ -4,14 +4,19 @@
 //! neighbours have bit by bit, in an order that is the same from either end. What is nearer than the near plane is
 //! taken at the near plane; or farther away, where displacement reaches farther.
 
-use crate::abi::{DRAW_LIMITED, FLAG_FIXED, FLAG_NAIVE, Frame, PARAM_ONE, Surface};
+use crate::abi::{
+    DRAW_LIMITED, FLAG_FIXED, FLAG_FLAT, FLAG_NAIVE, Frame, KIND_HALVED, PARAM_BITS, PARAM_ONE, Surface,
+};
 use crate::border::{SIDES, Side};
 use crate::kernel::bound::{Reach, distance, measured_point, point_on_screen, wobble};
 use crate::kernel::dice_gregory::evaluate_gregory;
+use crate::kernel::flat::{View, chord_flatness, line_flatness};
 use crate::num::{abs, add, clamp, float, floor, max, min, mul, neg, sub};
+use crate::patch::half::{Line, is_outer};
 use crate::patch::{Faces, Net};
 
-/// Lengths in pixels: of the longest lines of the surface along `u` and along `v`, and of its sides.
+/// Lengths in pixels: of the longest lines of the surface along `u` and along `v`, and of its sides; or how far it is from
+/// being flat ([`crate::kernel::flat`]).
 #[derive(Clone, Copy, Debug)]
 pub struct Lengths {
     /// Along `u`.
@@ -57,15 +62,16 @@ pub fn steps(frame: &Frame, length: f32) -> u32 {
     -floor(neg(steps)) as u32
 }
 
-/// How the sides of a surface are divided, given their lengths: as they were, unless they are live and short
-/// enough; or long, but may not be halved any more.
+/// How the sides of a surface of a patch of this kind are divided, given their lengths: as they were, unless they are live
+/// and short enough; or long, but may not be halved any more.
 #[inline(always)]
 #[must_use]
-pub fn divide(frame: &Frame, surface: Surface, lengths: &Lengths, code: u32) -> [Side; 4] {
+pub fn divide(frame: &Frame, surface: Surface, kind: u32, lengths: &Lengths, code: u32) -> [Side; 4] {
     let mut out = [Side::LIVE; 4];
     for side in SIDES {
         let known = surface.side(side);
-        let is_last = lengths.sides[side] <= frame.bound || code == DRAW_LIMITED;
+        let is_short = lengths.sides[side] <= frame.bound && !is_to_be_halved(surface, kind, side);
+        let is_last = is_short || code == DRAW_LIMITED;
         out[side] = if known.steps == 0 && is_last && frame.flags & FLAG_NAIVE == 0 {
             Side { steps: steps(frame, lengths.sides[side]), bits: surface.extent_of(side).1 }
         } else {
@@ -73,6 +79,39 @@ pub fn divide(frame: &Frame, surface: Surface, lengths: &Lengths, code: u32) -> 
         };
     }
     out
+}
+
+/// Is a side all of one side of its patch, with two patches on the other side of it?
+#[inline(always)]
+const fn is_to_be_halved(surface: Surface, kind: u32, side: usize) -> bool {
+    kind & KIND_HALVED & 1 << side != 0 && surface.extent_of(side).1 == PARAM_BITS && is_outer(surface, side)
+}
+
+/// Lengths of the sides of a surface, those replaced that are halves of other patches' sides, given what they are there.
+#[inline(always)]
+pub(super) fn with_half_lines(
+    frame: &Frame,
+    near: f32,
+    lines: &[Option<Line>; 4],
+    lengths: Lengths,
+) -> Lengths {
+    let mut sides = lengths.sides;
+    for side in SIDES {
+        if let Some(line) = &lines[side] {
+            sides[side] = line_extent(frame, near, line);
+        }
+    }
+    lengths.with_sides(sides)
+}
+
+/// Length of a line's control polygon on screen, or how far it is from its chord.
+#[inline(always)]
+fn line_extent(frame: &Frame, near: f32, line: &Line) -> f32 {
+    if frame.flags & FLAG_FLAT != 0 {
+        return line_flatness(View { frame, near, is_cut: false }, line);
+    }
+    let [a, b, c, d] = line.map(|point| measured_point(frame, near, point));
+    polygon(distance(a, b), distance(b, c), distance(c, d))
 }
 
 /// Micropolygons along `u` and along `v` of a surface whose sides are divided: enough for its lengths, and for
@@ -109,16 +148,26 @@ pub(super) fn sides_of_gregory(
             continue;
         }
         let along = side / 2;
-        let mut seen = [[0.0; 3]; 5];
-        for (quarter, seen) in (0..).zip(&mut seen) {
+        let mut points = [[0.0; 3]; 5];
+        for (quarter, point) in (0..).zip(&mut points) {
             let mut at = [ends[side]; 2];
             at[along] = low[along] + quarter * (high[along] / 4);
-            *seen = measured_point(frame, near, evaluate_gregory(net, faces, frame, at[0], at[1]).point);
+            *point = evaluate_gregory(net, faces, frame, at[0], at[1]).point;
         }
-        let chord = |k: usize| distance(seen[k], seen[k + 1]);
-        out[side] = add(add(chord(0), chord(3)), add(chord(1), chord(2)));
+        out[side] = chords_extent(frame, near, &points);
     }
     out
+}
+
+/// Length on screen of four chords, or how far the points are from one.
+#[inline(always)]
+fn chords_extent(frame: &Frame, near: f32, points: &[[f32; 3]; 5]) -> f32 {
+    if frame.flags & FLAG_FLAT != 0 {
+        return chord_flatness(View { frame, near, is_cut: false }, points);
+    }
+    let seen = points.map(|point| measured_point(frame, near, point));
+    let chord = |k: usize| distance(seen[k], seen[k + 1]);
+    add(add(chord(0), chord(3)), add(chord(1), chord(2)))
 }
 
 /// Where corners are that have strayed from a surface: it is drawn as far as there.

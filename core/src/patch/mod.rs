@@ -2,8 +2,12 @@
 
 pub mod bezier;
 pub mod gregory;
+pub mod half;
+pub mod instance;
 pub(crate) mod net;
 pub mod owner;
+pub mod rational;
 
 pub use gregory::Faces;
 pub use net::Net;
+pub use rational::Weights;

@@ -55,14 +55,27 @@ impl Net {
     #[inline(always)]
     #[must_use]
     pub fn restricted(&self, surface: Surface) -> Self {
-        let along_u = blossom(surface.u, surface.u + surface.u_size());
-        let along_v = blossom(surface.v, surface.v + surface.v_size());
+        self.between(range_of(surface))
+    }
+
+    /// The same of a range: the low and the high end of `u`, then those of `v`.
+    #[inline(always)]
+    #[must_use]
+    pub fn between(&self, [u, v]: [[u32; 2]; 2]) -> Self {
+        let (along_u, along_v) = (blossom(u[0], u[1]), blossom(v[0], v[1]));
         Self {
             x: combine_v(&combine_u(&self.x, &along_u), &along_v),
             y: combine_v(&combine_u(&self.y, &along_u), &along_v),
             z: combine_v(&combine_u(&self.z, &along_u), &along_v),
         }
     }
+}
+
+/// The low and the high end of a surface's `u`, then those of its `v`.
+#[inline(always)]
+#[must_use]
+pub(crate) const fn range_of(surface: Surface) -> [[u32; 2]; 2] {
+    [[surface.u, surface.u + surface.u_size()], [surface.v, surface.v + surface.v_size()]]
 }
 
 /// One eye-space coordinate of all control points.
@@ -98,7 +111,7 @@ impl Object {
 
 /// `weights` applied along `u`: four weighted sums of the rows of the net.
 #[inline(always)]
-fn combine_u(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
+pub(super) fn combine_u(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
     let mut out = [0.0; 16];
     for (k, w) in weights.iter().enumerate() {
         for j in 0..4 {
@@ -110,7 +123,7 @@ fn combine_u(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
 
 /// `weights` applied along `v`: four weighted sums of the columns of the net.
 #[inline(always)]
-fn combine_v(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
+pub(super) fn combine_v(c: &[f32; 16], weights: &[[f32; 4]; 4]) -> [f32; 16] {
     let mut out = [0.0; 16];
     for i in 0..4 {
         for (l, w) in weights.iter().enumerate() {
