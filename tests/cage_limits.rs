@@ -83,7 +83,7 @@ fn survey() {
     for (name, cage) in list {
         for levels in [3, 5] {
             let patches = patches(&cage, levels);
-            let samples = oracle::samples(&cage, 6);
+            let samples = oracle::samples(&cage, std::env::var("ORACLE").map_or(6, |n| n.parse().expect("n")));
             let e = compare(&patches, &samples, bbox_diagonal(&cage));
             println!("{name:16} {levels} offset {:.1e} angle {:6.3} regular {:.1e} distance {:.1e}  {} + {}", e.offset, e.angle, e.regular, e.distance, patches.bezier.len(), patches.gregory.len());
         }

@@ -3,25 +3,27 @@
 
 use rayon::prelude::*;
 
+use super::accuracy::Tolerance;
 use super::error::CageError;
 use super::level::{Level, NONE};
 use super::net::{BORDER_CORNER, SIDE, runs_along};
 use super::origin::Origin;
 use super::refine::refine;
 use super::start::level_of;
-use super::tags::{Fate, Kind, Rule, fates, kinds};
+use super::tags::{Fate, Kind, Rule, fates, kinds, spread};
 use super::tangents::Tangents;
 use super::{Cage, gregory, limit, regular};
 use crate::gregory::GregoryPatch;
 use crate::shape::{BezierPatch, HalfSide};
 
 /// The most levels that can be asked for; creases that decay add up to 10.
-pub const MOST_LEVELS: u32 = 12;
+pub const MOST_LEVELS: u32 = 10;
 
 /// How cages become patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Levels of refinement around what is not regular, up to [`MOST_LEVELS`].
+    /// Levels of refinement around what is not regular, up to [`MOST_LEVELS`]. There are more, up to 5, where these leave
+    /// the surface farther off than they do around vertices with 3 or 5 edges.
     pub levels: u32,
 }
 
@@ -63,12 +65,18 @@ pub fn convert(
     }
     let mut patches = Patches::default();
     let mut level = level_of(cage)?;
+    let tolerance = Tolerance::new(&level.points, levels);
     let mut open = Vec::new();
     for depth in 0.. {
         let kinds = kinds(&level);
-        let fates = fates(&level, &kinds, depth >= levels);
+        let mut fates = fates(&level, &kinds, depth >= levels);
         limit::settle(&mut level, &kinds, &fates);
-        let numbers = emit(&level, &kinds, &fates, &mut patches);
+        let tangents = Tangents::of(&level, &kinds, &fates);
+        if tolerance.matters(depth) {
+            tolerance.apply(&level, &kinds, &tangents, depth, &mut fates);
+            spread(&level, &mut fates);
+        }
+        let numbers = emit(&level, &kinds, &fates, &tangents, &mut patches);
         close(&level, &open, &numbers, &mut patches)?;
         open = open_sides(&level, &fates, &numbers);
         progress((depth + 1) as f32 / (levels.max(depth) + 1) as f32);
@@ -81,7 +89,13 @@ pub fn convert(
 }
 
 /// Adds the patches of a level, and gives the number of each face's Bézier patch.
-fn emit(level: &Level, kinds: &[Kind], fates: &[Fate], patches: &mut Patches) -> Vec<u32> {
+fn emit(
+    level: &Level,
+    kinds: &[Kind],
+    fates: &[Fate],
+    tangents: &Tangents,
+    patches: &mut Patches,
+) -> Vec<u32> {
     let of = |fate: Fate| -> Vec<u32> {
         (0..fates.len() as u32).into_par_iter().filter(|&face| fates[face as usize] == fate).collect()
     };
@@ -92,8 +106,7 @@ fn emit(level: &Level, kinds: &[Kind], fates: &[Fate], patches: &mut Patches) ->
     }
     patches.bezier.par_extend(bezier.par_iter().map(|&face| regular::patch(level, face as usize)));
     patches.bezier_origins.par_extend(bezier.par_iter().filter_map(|&face| place(level, kinds, face as usize)));
-    let tangents = Tangents::of(level, kinds, fates);
-    let patch = |&face: &u32| gregory::patch(level, kinds, &tangents, face as usize);
+    let patch = |&face: &u32| gregory::patch(level, kinds, tangents, face as usize);
     patches.gregory.par_extend(gregory.par_iter().map(patch));
     patches.gregory_origins.par_extend(gregory.par_iter().filter_map(|&face| place(level, kinds, face as usize)));
     numbers

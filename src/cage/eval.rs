@@ -19,6 +19,21 @@ pub struct Evaluation {
     pub is_smooth: bool,
 }
 
+impl Evaluation {
+    /// Of a Bézier patch alone, as if it were smooth everywhere.
+    #[must_use]
+    pub fn of_bezier(patch: &BezierPatch, u: f64, v: f64) -> Self {
+        let net = patch.points.map(|point| DVec3::from(point.map(f64::from)));
+        evaluate(&[net, [DVec3::ZERO; 16], [DVec3::ZERO; 16]], [u, v])
+    }
+
+    /// Of a Gregory patch alone, as if it were smooth everywhere.
+    #[must_use]
+    pub fn of_gregory(patch: &GregoryPatch, u: f64, v: f64) -> Self {
+        evaluate(&gregory_nets(patch, [u, v]), [u, v])
+    }
+}
+
 /// Finds patches by where they lie, and evaluates them.
 #[derive(Clone, Debug)]
 pub struct Evaluator<'a> {
@@ -55,14 +70,12 @@ impl<'a> Evaluator<'a> {
     pub fn at(&self, face: u32, sub: i32, u: f64, v: f64) -> Option<Evaluation> {
         let (entry, [u, v]) = (0..=self.deepest).find_map(|level| self.find(face, sub, level, [u, v]))?;
         let index = entry.index as usize;
-        let Some(nets) = (if entry.is_gregory {
-            self.patches.gregory.get(index).map(|patch| gregory_nets(patch, [u, v]))
+        let found = if entry.is_gregory {
+            Evaluation::of_gregory(self.patches.gregory.get(index)?, u, v)
         } else {
-            self.patches.bezier.get(index).map(bezier_nets)
-        }) else {
-            return None;
+            Evaluation::of_bezier(self.patches.bezier.get(index)?, u, v)
         };
-        Some(Evaluation { is_smooth: is_smooth(entry.origin.sharp, [u, v]), ..evaluate(&nets, [u, v]) })
+        Some(Evaluation { is_smooth: is_smooth(entry.origin.sharp, [u, v]), ..found })
     }
 
     /// The patch of one level, and where in it the place is.
@@ -81,11 +94,6 @@ impl<'a> Evaluator<'a> {
 
 /// The net at a place, and how it changes along u and along v.
 type Nets = [[DVec3; 16]; 3];
-
-/// A Bézier patch's net, which does not change.
-fn bezier_nets(patch: &BezierPatch) -> Nets {
-    [patch.points.map(|point| DVec3::from(point.map(f64::from))), [DVec3::ZERO; 16], [DVec3::ZERO; 16]]
-}
 
 /// A Gregory patch's nets: its inner points are blends of two face points each, by the distances from the two borders
 /// beside them.

@@ -1,5 +1,6 @@
 //! Cages: polygon meshes whose Catmull-Clark limit surfaces are drawn.
 
+mod accuracy;
 mod convert;
 mod dart;
 mod eigen;

@@ -111,7 +111,7 @@ fn fate(level: &Level, kinds: &[Kind], is_last: bool, face: usize) -> Fate {
 }
 
 /// Refines what would be a Gregory patch beside smaller ones: only Bézier patches may have such neighbours.
-fn spread(level: &Level, fates: &mut [Fate]) {
+pub(super) fn spread(level: &Level, fates: &mut [Fate]) {
     let mut waiting: Vec<usize> = (0..fates.len()).filter(|&face| fates[face] == Fate::Refined).collect();
     while let Some(face) = waiting.pop() {
         for twin in level.corners_of(face).filter_map(|half_edge| level.twin(half_edge)) {

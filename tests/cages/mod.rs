@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test uses its part of it
 
+pub mod list;
 pub mod oracle;
 
 use std::path::{Path, PathBuf};
