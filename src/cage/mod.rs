@@ -6,6 +6,8 @@ mod dart;
 mod eigen;
 mod error;
 mod eval;
+mod fan;
+pub mod generate;
 mod gregory;
 mod level;
 mod limit;

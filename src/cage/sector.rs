@@ -13,6 +13,8 @@ pub(super) struct Sector {
     pub(super) ends: Vec<DVec3>,
     /// Vertices opposite in the faces, less the vertex itself.
     pub(super) opposite: Vec<DVec3>,
+    /// Is there no crease?
+    pub(super) is_closed: bool,
 }
 
 impl Sector {
@@ -43,7 +45,7 @@ impl Sector {
         ends.push(level.point(level.previous(last)) - here);
         let opposite =
             corners.iter().map(|&corner| level.points[level.end(level.next(corner))] - here).collect();
-        Self { corners, ends, opposite }
+        Self { corners, ends, opposite, is_closed: !level.is_crease(first) }
     }
 
     /// How many faces there are.

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::dart;
 use super::eigen::Wave;
+use super::fan::Fan;
 use super::level::{Level, NONE};
 use super::sector::Sector;
 use super::tags::{Fate, Kind, Rule};
@@ -126,7 +127,25 @@ fn crease(sector: &Sector, wave: &Wave) -> [DVec3; 2] {
     [along, (wave.sum(sector, sin) + ends) * 2.0]
 }
 
-/// Where the vertex does not move: straight to the neighbours.
+/// Where the vertex does not move: in the plane of the two creases, if they span one, so that no edge between them is a bend;
+/// else straight to the neighbours. (Nothing is smooth at such a vertex, whatever is done: see section 4 of Biermann, Levin
+/// & Zorin 2000.)
 fn corner(sector: &Sector, limit: DVec3) -> Vec<Spoke> {
-    sector.ends.iter().map(|&end| Spoke { point: limit + end / 3.0, cosine: 0.0 }).collect()
+    let count = sector.count();
+    let straight = |place: usize| sector.ends[place] / 3.0;
+    if sector.is_closed {
+        // All edges leave it the same way: what differs from their mean shrinks faster.
+        let way = (0..count).map(straight).sum::<DVec3>() / count as f64;
+        return vec![Spoke { point: limit + way, cosine: 1.0 }; count + 1];
+    }
+    let (first, last) = (straight(0), straight(count));
+    let fan = if count > 1 { Fan::between(first, last, (1..count).map(straight), count) } else { None };
+    let spoke = |place: usize| match fan {
+        Some(fan) if place > 0 && place < count => {
+            let way = first * fan.share(count - place) + last * fan.share(place);
+            Spoke { point: limit + way, cosine: fan.cosine }
+        }
+        _ => Spoke { point: limit + straight(place), cosine: fan.map_or(0.0, |fan| fan.cosine) },
+    };
+    (0..=count).map(spoke).collect()
 }
