@@ -1,4 +1,5 @@
-//! Any bytes as a RenderMan file: they are read, with finite numbers only, or refused with an error.
+//! Any bytes as a RenderMan file: they are read and made ready for a device, with finite
+//! numbers only, or refused with an error.
 #![no_main]
 
 use std::path::Path;
@@ -17,6 +18,11 @@ fuzz_target!(|bytes: &[u8]| {
             assert!(object.opacity > 0.0 && object.opacity <= 1.0);
             assert!(is_finite(&object.geometry));
         }
+        if let Ok(scene) = micropoly::rib::lower::scene(PLACE.to_owned(), &scene, 1)
+            && let Ok(device) = scene.for_device(&Default::default())
+        {
+            assert!(device.objects.iter().flat_map(|object| object.to_eye).all(f32::is_finite));
+        }
         if let Some(camera) = scene.camera.map(|camera| camera.camera()) {
             assert!(camera.view.is_finite() && camera.fov.is_finite());
         }
@@ -34,8 +40,9 @@ fn is_finite(geometry: &RibGeometry) -> bool {
                 && cage.corners.iter().all(|&corner| (corner as usize) < cage.positions.len())
         }
         RibGeometry::Quadric(_) => true,
-        RibGeometry::Curves(curves) => {
-            curves.curves.iter().all(|curve| curve.points.iter().all(|point| sound(point)) && sound(&curve.widths))
-        }
+        RibGeometry::Curves(curves) => curves
+            .curves
+            .iter()
+            .all(|curve| curve.points.iter().all(|point| sound(point)) && sound(&curve.widths)),
     }
 }

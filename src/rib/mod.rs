@@ -38,6 +38,10 @@ pub use model::{
 pub use place::Place;
 
 use crate::error::{Result, read_bytes};
+use crate::scene::Scene;
+
+/// Refinement of cages around what is not regular.
+const LEVELS: u32 = 3;
 
 /// Reads a file and the archives it names.
 ///
@@ -45,6 +49,16 @@ use crate::error::{Result, read_bytes};
 /// [`Error::Read`](crate::Error::Read), or [`Error::Format`](crate::Error::Format) with file and line.
 pub fn load(path: &Path) -> Result<RibScene> {
     parse_bytes(path, &read_bytes(path)?)
+}
+
+/// Reads a file as a scene, and what of it cannot be drawn as it should.
+///
+/// # Errors
+/// As [`load`], and [`Error::Format`](crate::Error::Format) for geometry that cannot be drawn.
+pub fn load_scene(path: &Path) -> Result<(Scene, Vec<String>)> {
+    let file = load(path)?;
+    let scene = lower::scene(path.display().to_string(), &file, LEVELS)?;
+    Ok((scene, file.warnings))
 }
 
 /// Reads a scene from bytes; archives that it names are looked for beside `path`.

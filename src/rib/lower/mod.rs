@@ -1,6 +1,7 @@
 //! From what a file says to what a scene is made of: shapes, looks, lights and a camera.
 
 mod looks;
+mod scene;
 mod shapes;
 
 use std::collections::HashMap;
@@ -10,6 +11,7 @@ use glam::{DVec3, Vec3};
 use micropoly_core::camera::{Camera, Light, Material};
 
 pub use self::looks::{lights_of, material_of};
+pub use self::scene::scene;
 pub use self::shapes::shape_of;
 use super::model::{RibGeometry, RibObject, RibScene};
 use crate::error::{Error, Result};
@@ -107,7 +109,7 @@ impl<'a> Shapes<'a> {
             return Ok(());
         }
         let shape = Arc::new(shape_of(object, eye, self.levels)?);
-        self.patches += shape.bezier.len() + shape.rational.len() + shape.gregory.len();
+        self.patches += shape.patch_count();
         if self.patches > MAX_PATCHES {
             let problem = format!("with this the scene has more than {MAX_PATCHES} patches");
             return Err(object.place.wrong(problem, "split the scene, or use fewer curves in objects"));

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::cage::Cage;
+use crate::cage::{self, Cage};
 use crate::curve::Curve;
 use crate::error::Result;
 use crate::nurbs::{Basis, Nurbs, PatchMesh};
@@ -177,9 +177,11 @@ fn ribbons(curves: &RibCurves, eye: [f64; 3]) -> Made {
 }
 
 /// The limit surface of a cage.
-fn subdivided(_cage: &Cage, _levels: u32) -> Made {
-    let problem = "subdivision meshes cannot be drawn yet".to_owned();
-    Err(Unfit { problem, remedy: "leave it out" })
+fn subdivided(cage: &Cage, levels: u32) -> Made {
+    let made = cage::convert(cage, &cage::Options { levels }, &|_| {})
+        .map_err(|error| Unfit { problem: error.problem(), remedy: error.remedy() })?;
+    let cage::Patches { bezier, gregory, halves, .. } = made;
+    Ok(Shape { bezier, gregory, halves, ..Shape::default() })
 }
 
 #[cfg(test)]
@@ -223,6 +225,9 @@ mod tests {
         assert_eq!(counts("Patch \"bilinear\" \"Pw\" [0 0 0 1 2 0 0 2 0 1 0 1 1 1 0 1]"), (0, 1));
         assert_eq!(counts("Polygon \"P\" [0 0 0 1 0 0 1 1 0 0 1 0]"), (1, 0));
         assert_eq!(counts(&format!("Curves \"cubic\" [4 4] \"nonperiodic\" {}", grid(4, 2))), (2, 0));
+        let cube = "SubdivisionMesh \"catmull-clark\" [4 4 4 4 4 4] [0 1 3 2 4 6 7 5 0 4 5 1 2 3 7 6 0 2 6 4 1 5 7 3]";
+        let corners = "\"P\" [0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1]";
+        assert!(made(&format!("{cube} {corners}")).expect("made").patch_count() > 6);
         assert_eq!(counts(&format!("Curves \"linear\" [3 3] \"periodic\" {}", grid(3, 2))), (6, 0));
     }
 
@@ -270,6 +275,10 @@ mod tests {
             ("\nSphere 0 -1 1 360".to_owned(), "x.rib:2: this quadric: radius is 0"),
             ("\nSphere 1 2 3 360".to_owned(), "x.rib:2: this quadric: nothing"),
             (format!("NuPatch 5 5 [0 0 0 0 0 1 1 1 1 1] 0 1 1 1 [0 1] 0 1 {points}"), "degree is 4"),
+            (
+                format!("SubdivisionMesh \"catmull-clark\" [3 3] [0 1 2 0 1 3] {points}"),
+                "`SubdivisionMesh`: ",
+            ),
             (format!("Basis \"power\" 4 \"power\" 4 {curve}"), "\"power\" is not supported"),
             (format!("Basis \"bezier\" 3 \"b-spline\" 2 {curve}"), "step of 2 are not supported"),
         ] {
