@@ -42,6 +42,7 @@ pub mod quadric;
 pub mod rasterising;
 mod records;
 mod render;
+pub mod rib;
 mod scene;
 pub mod scene_file;
 mod shape;
