@@ -3,7 +3,7 @@
 //! 2000 explains how limits follow from them).
 
 use glam::DVec3;
-use libm::{cos, sin};
+use libm::cos;
 
 use super::eigen::Wave;
 use super::level::Level;
@@ -26,17 +26,15 @@ pub(super) fn position(level: &Level, vertex: usize) -> DVec3 {
 }
 
 /// Two tangents: along the crease, and a quarter turn on.
-pub(super) fn tangents(sector: &Sector) -> [DVec3; 2] {
-    let wave = Wave::around(sector.count() as f64);
+pub(super) fn tangents(sector: &Sector, wave: &Wave) -> [DVec3; 2] {
     let weights = Weights::tangent(sector.count());
     let (mut found, mut wanted) = (0.0, 0.0);
     for place in 0..sector.count() {
-        let angle = place as f64 * wave.angle;
-        let (end, opposite) = (cos(angle), cos(angle + 0.5 * wave.angle));
+        let (end, opposite) = (wave.at(place)[0], wave.after(place)[0]);
         found += weights.ends[place] * end + weights.opposite[place] * wave.reach * opposite;
         wanted += wave.weight * (end * end + wave.ratio * wave.reach * opposite * opposite);
     }
-    [weights.apply(sector) * (wanted / found), wave.sum(sector, sin)]
+    [weights.apply(sector) * (wanted / found), wave.sums(sector)[1]]
 }
 
 impl Weights {
