@@ -22,7 +22,9 @@ struct Weights {
 /// Where the vertex ends up.
 pub(super) fn position(level: &Level, vertex: usize) -> DVec3 {
     let here = level.points[vertex];
-    Sector::all(level, vertex).first().map_or(here, |sector| here + Weights::limit(sector.count()).apply(sector))
+    Sector::all(level, vertex)
+        .first()
+        .map_or(here, |sector| here + Weights::limit(sector.count()).apply(sector))
 }
 
 /// Two tangents: along the crease, and a quarter turn on.
@@ -51,9 +53,7 @@ impl Weights {
             4.0 / (n * n) * (1.0 - (power(place) + power(count - place)) / (1.0 + power(count)))
         };
         let mut ends: Vec<f64> = (0..count).map(across).collect();
-        let between = |place: usize| {
-            (across(place) + across(place + 1)) / 12.0 + 1.0 / (3.0 * n * n)
-        };
+        let between = |place: usize| (across(place) + across(place + 1)) / 12.0 + 1.0 / (3.0 * n * n);
         let opposite: Vec<f64> = (0..count).map(between).collect();
         let beside = across(1) + across(count - 1);
         ends[0] = beside / 8.0 + (opposite[count - 1] + opposite[0]) * 0.5 + 3.0 / (n * n);
@@ -104,14 +104,19 @@ impl Weights {
     /// Less as much of the limit's weights as they contain.
     fn without(mut self, limit: &Self) -> Self {
         let sum: f64 = self.all().sum();
-        let pairs = self.ends.iter_mut().zip(&limit.ends).chain(self.opposite.iter_mut().zip(&limit.opposite));
+        let pairs =
+            self.ends.iter_mut().zip(&limit.ends).chain(self.opposite.iter_mut().zip(&limit.opposite));
         pairs.for_each(|(weight, part)| *weight -= sum * part);
         self.here -= sum * limit.here;
         self
     }
 
     fn scaled(mut self, factor: f64) -> Self {
-        self.ends.iter_mut().chain(&mut self.opposite).chain([&mut self.here]).for_each(|weight| *weight *= factor);
+        self.ends
+            .iter_mut()
+            .chain(&mut self.opposite)
+            .chain([&mut self.here])
+            .for_each(|weight| *weight *= factor);
         self
     }
 

@@ -51,7 +51,8 @@ impl Tangents {
             let found: Vec<_> = some
                 .par_iter()
                 .flat_map_iter(|&vertex| {
-                    let (limit, rule) = (DVec3::from(level.limits[vertex].map(f64::from)), kinds[vertex].rule);
+                    let (limit, rule) =
+                        (DVec3::from(level.limits[vertex].map(f64::from)), kinds[vertex].rule);
                     let with = move |sector: Sector| (spokes(&sector, limit, rule, waves), sector.corners);
                     Sector::all(level, vertex).into_iter().map(with)
                 })
