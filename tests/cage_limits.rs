@@ -4,6 +4,7 @@ mod cages;
 
 use cages::*;
 use glam::DVec3;
+use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::cage::{Cage, Options, Patches, convert};
 
 fn patches(cage: &Cage, levels: u32) -> Patches {
@@ -67,6 +68,26 @@ fn surfaces_are_where_refinement_ends() {
         let samples = oracle::samples(&cage, 5);
         check(&name, &cage, &samples, bbox_diagonal(&cage));
     }
+}
+
+#[test]
+fn fine_cages_need_fewer_levels_and_are_no_farther_off() {
+    for layout in Layout::ALL {
+        for (faces, slow_levels) in [(300, 4), (2000, 3)] {
+            let cage = torus_cage(faces, layout);
+            let samples = oracle::samples(&cage, slow_levels);
+            check(&format!("{} torus of {faces}", layout.name()), &cage, &samples, bbox_diagonal(&cage));
+        }
+    }
+    let dense = torus_cage(60_000, Layout::Triangles);
+    assert!(patches(&dense, 3).bezier.is_empty(), "a fine cage was refined more than once");
+}
+
+#[test]
+fn spot_is_where_refinement_ends() {
+    let Some(path) = shared("spot_is_where_refinement_ends", "models/spot_control_mesh.obj") else { return };
+    let spot = read_obj(&path);
+    check("spot", &spot, &oracle::samples(&spot, 4), bbox_diagonal(&spot));
 }
 
 #[test]

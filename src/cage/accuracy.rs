@@ -26,8 +26,6 @@ const ANGLE: f64 = 1.0;
 const EARLY: f64 = 0.25;
 /// Where a crease ends patches are farther off beside it than in the middle: by so much less they may be off there.
 const AT_DARTS: f64 = 0.25;
-/// Vertices with more faces are not measured, since each of their faces would look at all the others.
-const MOST_FACES: usize = 64;
 
 /// What patches may be off by, for a number of levels.
 #[derive(Clone, Copy, Debug)]
@@ -77,17 +75,13 @@ impl Tolerance {
         if faces.is_empty() {
             return;
         }
-        let middles: Vec<DVec3> =
-            (0..level.face_count()).into_par_iter().map(|face| face_point(level, face)).collect();
+        let next = Next::of(level, faces);
         let is_off = |(&face, patch): (&u32, &GregoryPatch)| {
-            let corners = level.corners_of(face as usize);
-            let is_measured = corners.clone().all(|at| level.fan(level.vertex(at)).len() <= MOST_FACES);
-            let is_at_dart = corners.clone().any(|at| kinds[level.vertex(at)].rule == Rule::Dart);
+            let mut corners = level.corners_of(face as usize);
+            let is_at_dart = corners.any(|at| kinds[level.vertex(at)].rule == Rule::Dart);
             let most = self.offset * if is_at_dart { AT_DARTS } else { 1.0 };
-            !is_measured || {
-                let [offset, turned] = errors(level, &middles, patch, face as usize);
-                offset > most || turned > self.angle
-            }
+            let [offset, turned] = next.errors(level, patch, face as usize);
+            offset > most || turned > self.angle
         };
         let off: Vec<u32> =
             faces.par_iter().zip(patches).filter(|&pair| is_off(pair)).map(|(&face, _)| face).collect();
@@ -95,22 +89,47 @@ impl Tolerance {
     }
 }
 
-/// In the middle of a face: how far its patch is off along the normal, and how far its normal has turned, in degrees.
-fn errors(level: &Level, middles: &[DVec3], patch: &GregoryPatch, face: usize) -> [f64; 2] {
-    let found = Evaluation::of_gregory(patch, 0.5, 0.5);
-    let (position, normal) = middle(level, middles, face);
-    let turned = found.normal.cross(normal).length().atan2(found.normal.dot(normal)).to_degrees();
-    [(found.position - position).dot(normal).abs(), turned]
+/// Vertices that some faces would have on the next level.
+struct Next {
+    /// In the middle of each face.
+    middles: Vec<DVec3>,
+    /// At each vertex; of no meaning at others than theirs.
+    vertices: Vec<DVec3>,
 }
 
-/// Limit position and normal in the middle of a quad, which will be a regular vertex.
-fn middle(level: &Level, middles: &[DVec3], face: usize) -> (DVec3, DVec3) {
-    let (first, here) = (level.corners_of(face).start, |face: usize| middles[face]);
-    let edges = [0, 1, 2, 3].map(|at| edge_point(level, first + at, here));
-    let corners = [0, 1, 2, 3].map(|at| vertex_point(level, level.vertex(first + at), here));
-    let (edge_sum, corner_sum): (DVec3, DVec3) = (edges.iter().sum(), corners.iter().sum());
-    let position = (here(face) * 16.0 + edge_sum * 4.0 + corner_sum) / 36.0;
-    let along_u = (edges[1] - edges[3]) * 4.0 + (corners[1] + corners[2]) - (corners[0] + corners[3]);
-    let along_v = (edges[2] - edges[0]) * 4.0 + (corners[2] + corners[3]) - (corners[0] + corners[1]);
-    (position, along_u.cross(along_v).normalize_or_zero())
+impl Next {
+    fn of(level: &Level, faces: &[u32]) -> Self {
+        let middles: Vec<DVec3> =
+            (0..level.face_count()).into_par_iter().map(|face| face_point(level, face)).collect();
+        let mut needed = vec![false; level.points.len()];
+        for &vertex in faces.iter().flat_map(|&face| &level.corners[level.corners_of(face as usize)]) {
+            needed[vertex as usize] = true;
+        }
+        let moved = |(vertex, is_needed)| match is_needed {
+            true => vertex_point(level, vertex, |face| middles[face]),
+            false => DVec3::ZERO,
+        };
+        let vertices = needed.into_par_iter().enumerate().map(moved).collect();
+        Self { middles, vertices }
+    }
+
+    /// In the middle of a face: how far its patch is off along the normal, and how far its normal has turned, in degrees.
+    fn errors(&self, level: &Level, patch: &GregoryPatch, face: usize) -> [f64; 2] {
+        let found = Evaluation::of_gregory(patch, 0.5, 0.5);
+        let (position, normal) = self.middle(level, face);
+        let turned = found.normal.cross(normal).length().atan2(found.normal.dot(normal)).to_degrees();
+        [(found.position - position).dot(normal).abs(), turned]
+    }
+
+    /// Limit position and normal in the middle of a quad, which will be a regular vertex.
+    fn middle(&self, level: &Level, face: usize) -> (DVec3, DVec3) {
+        let first = level.corners_of(face).start;
+        let edges = [0, 1, 2, 3].map(|at| edge_point(level, first + at, |face| self.middles[face]));
+        let corners = [0, 1, 2, 3].map(|at| self.vertices[level.vertex(first + at)]);
+        let (edge_sum, corner_sum): (DVec3, DVec3) = (edges.iter().sum(), corners.iter().sum());
+        let position = (self.middles[face] * 16.0 + edge_sum * 4.0 + corner_sum) / 36.0;
+        let along_u = (edges[1] - edges[3]) * 4.0 + (corners[1] + corners[2]) - (corners[0] + corners[3]);
+        let along_v = (edges[2] - edges[0]) * 4.0 + (corners[2] + corners[3]) - (corners[0] + corners[1]);
+        (position, along_u.cross(along_v).normalize_or_zero())
+    }
 }

@@ -47,7 +47,7 @@ impl Weights {
         let root = (7.0 - 45.0_f64.sqrt()) * 0.5;
         let power = |place: usize| libm::pow(root, place as f64);
         let across = |place: usize| {
-            if place % count == 0 {
+            if place.is_multiple_of(count) {
                 return 0.0;
             }
             4.0 / (n * n) * (1.0 - (power(place) + power(count - place)) / (1.0 + power(count)))

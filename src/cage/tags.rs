@@ -50,7 +50,8 @@ pub(super) fn kinds(level: &Level) -> Vec<Kind> {
 
 fn kind(level: &Level, vertex: usize) -> Kind {
     let (mut creases, mut is_settled) = (0, true);
-    for (half_edge, _) in level.edges_at(vertex) {
+    let edges = (!level.is_plain(vertex)).then(|| level.edges_at(vertex));
+    for (half_edge, _) in edges.into_iter().flatten() {
         let sharpness = level.edge_sharpness(half_edge);
         creases += u32::from(sharpness >= INFINITELY_SHARP);
         is_settled &= sharpness == 0.0 || sharpness >= INFINITELY_SHARP;
