@@ -19,6 +19,7 @@ mod backend;
 pub mod bench;
 pub mod bpt;
 pub mod cage;
+pub mod cage_bench;
 mod canvas;
 pub mod curve;
 pub mod devices;

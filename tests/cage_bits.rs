@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use cages::{list, read_obj, shared};
 use micropoly::HalfSide;
-use micropoly::cage::{Cage, Evaluation, Options, Patches, convert};
+use micropoly::cage::{Cage, Evaluation, Options, Origin, Patches, convert};
 
 /// Indices of a side's points in a net; sides are v = 0, v = 1, u = 0, u = 1.
 const SIDES: [[usize; 4]; 4] = [[0, 4, 8, 12], [3, 7, 11, 15], [0, 1, 2, 3], [12, 13, 14, 15]];
@@ -25,7 +25,8 @@ fn patches(cage: &Cage, levels: u32) -> Patches {
 }
 
 fn curve(patches: &Patches, side: Side) -> [[f32; 3]; 4] {
-    let net = if side.is_gregory { patches.gregory[side.patch].net() } else { patches.bezier[side.patch].points };
+    let net =
+        if side.is_gregory { patches.gregory[side.patch].net() } else { patches.bezier[side.patch].points };
     SIDES[side.side].map(|at| net[at])
 }
 
@@ -39,7 +40,9 @@ fn key(curve: [[f32; 3]; 4]) -> Curve {
 fn sides(patches: &Patches) -> impl Iterator<Item = Side> {
     let bezier = (0..patches.bezier.len()).map(|patch| (false, patch));
     let gregory = (0..patches.gregory.len()).map(|patch| (true, patch));
-    bezier.chain(gregory).flat_map(|(is_gregory, patch)| (0..4).map(move |side| Side { is_gregory, patch, side }))
+    bezier
+        .chain(gregory)
+        .flat_map(|(is_gregory, patch)| (0..4).map(move |side| Side { is_gregory, patch, side }))
 }
 
 /// Sides by their curves.
@@ -90,7 +93,8 @@ fn open_sides(patches: &Patches, name: &str) -> Vec<Side> {
     for &half_side in &patches.halves {
         check_half(patches, half_side, name);
         let HalfSide { fine, fine_side, coarse, coarse_side, is_second, .. } = half_side;
-        let side = |patch: u32, side: u8| Side { is_gregory: false, patch: patch as usize, side: side.into() };
+        let side =
+            |patch: u32, side: u8| Side { is_gregory: false, patch: patch as usize, side: side.into() };
         assert!(halves.insert(side(fine, fine_side), 3).is_none(), "{name}: a half of two sides");
         let seen = halves.entry(side(coarse, coarse_side)).or_default();
         let bit = 1 << u32::from(is_second);
@@ -126,30 +130,53 @@ fn spot_is_closed() {
     let spot = read_obj(&path);
     for levels in [0, 1, 3] {
         let patches = patches(&spot, levels);
-        println!("{levels}: {} Bézier, {} Gregory", patches.bezier.len(), patches.gregory.len());
         assert_eq!(open_sides(&patches, "spot").len(), 0);
     }
 }
 
+fn origin(patches: &Patches, side: Side) -> Origin {
+    if side.is_gregory { patches.gregory_origins[side.patch] } else { patches.bezier_origins[side.patch] }
+}
+
 #[test]
-fn open_cages_are_open_only_along_their_boundaries_and_holes() {
-    for (name, cage) in list::open() {
+fn open_cages_are_open_only_at_their_ends_and_holes() {
+    for (name, cage, expected) in list::open() {
         for levels in 0..5 {
             let patches = patches(&cage, levels);
             let open = open_sides(&patches, &name);
-            if cage.holes.is_empty() && cage.boundary != micropoly::cage::Boundary::None {
-                for side in &open {
-                    let origins = if side.is_gregory { &patches.gregory_origins } else { &patches.bezier_origins };
-                    assert!(origins[side.patch].sharp >> side.side & 1 == 1, "{name}: {side:?} is open");
-                }
-            }
-            let whole = open.iter().map(|side| {
-                let origins = if side.is_gregory { &patches.gregory_origins } else { &patches.bezier_origins };
-                0.5_f64.powi(origins[side.patch].level.into())
-            });
-            let length: f64 = whole.sum();
-            println!("{name} {levels}: {length}");
+            let length = |side: &Side| 1.0 / f64::from(1 << origin(&patches, *side).level);
+            let length: f64 = open.iter().map(length).sum();
+            assert_eq!(length, expected, "{name}, {levels} levels");
         }
+    }
+}
+
+#[test]
+fn a_vertex_has_the_same_bits_in_all_patches_of_all_levels() {
+    for (name, cage) in list::closed() {
+        let patches = patches(&cage, 3);
+        let mut corners: Vec<[f32; 3]> =
+            sides(&patches).flat_map(|side| [0, 3].map(|end| curve(&patches, side)[end])).collect();
+        corners.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
+        corners.dedup();
+        for (k, a) in corners.iter().enumerate() {
+            let near = corners[k + 1..].iter().take_while(|b| b[0] - a[0] < 1e-5);
+            for b in near {
+                let distance = (0..3).map(|axis| (a[axis] - b[axis]).abs()).fold(0.0, f32::max);
+                assert!(distance > 1e-5, "{name}: {a:?} and {b:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn patches_do_not_depend_on_the_number_of_threads() {
+    for (name, cage) in list::closed() {
+        let with = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| patches(&cage, 3))
+        };
+        assert!(with(1) == with(5), "{name}");
     }
 }
 
@@ -164,25 +191,36 @@ fn normal(patches: &Patches, side: Side, t: f64) -> glam::DVec3 {
     found.normal
 }
 
-/// The largest angle between the normals of two patches along smooth sides that they share, in degrees.
-fn largest_bend(patches: &Patches) -> (f64, Option<[Side; 2]>) {
-    let mut most = (0.0, None);
-    for (_, sides) in shared_curves(patches) {
-        let &[a, b] = &sides[..] else { continue };
-        let origin = |side: Side| {
-            if side.is_gregory { patches.gregory_origins[side.patch] } else { patches.bezier_origins[side.patch] }
-        };
-        if origin(a).sharp >> a.side & 1 == 1 {
-            continue;
+/// The largest angle between the normals of two sides, or parts of sides, in degrees.
+fn bend(patches: &Patches, a: Side, b: Side, along: impl Fn(f64) -> f64) -> f64 {
+    let at = |k: u32| {
+        let t = f64::from(k) / 32.0;
+        let (n, m) = (normal(patches, a, t), normal(patches, b, along(t)));
+        n.cross(m).length().atan2(n.dot(m)).to_degrees()
+    };
+    (1..32).map(at).fold(0.0, f64::max)
+}
+
+/// The largest angle between the normals of two patches along smooth sides that they share.
+fn largest_bend(patches: &Patches) -> f64 {
+    let is_crease = |side: Side| origin(patches, side).sharp >> side.side & 1 == 1;
+    let mut most = 0.0_f64;
+    for sides in shared_curves(patches).values() {
+        if let &[a, b] = &sides[..]
+            && !is_crease(a)
+        {
+            let is_reversed = curve(patches, a) != curve(patches, b);
+            most = most.max(bend(patches, a, b, |t| if is_reversed { 1.0 - t } else { t }));
         }
-        let is_reversed = curve(patches, a) != curve(patches, b);
-        for k in 1..32 {
-            let t = f64::from(k) / 32.0;
-            let (n, m) = (normal(patches, a, t), normal(patches, b, if is_reversed { 1.0 - t } else { t }));
-            let bend = n.cross(m).length().atan2(n.dot(m)).to_degrees();
-            if bend > most.0 {
-                most = (bend, Some([a, b]));
-            }
+    }
+    for half in &patches.halves {
+        let side =
+            |patch: u32, side: u8| Side { is_gregory: false, patch: patch as usize, side: side.into() };
+        let (fine, coarse) = (side(half.fine, half.fine_side), side(half.coarse, half.coarse_side));
+        if !is_crease(fine) {
+            let start = if half.is_second { 0.5 } else { 0.0 };
+            let along = |t: f64| start + 0.5 * if half.is_reversed { 1.0 - t } else { t };
+            most = most.max(bend(patches, fine, coarse, along));
         }
     }
     most
@@ -190,11 +228,11 @@ fn largest_bend(patches: &Patches) -> (f64, Option<[Side; 2]>) {
 
 #[test]
 fn the_surface_does_not_bend_across_smooth_edges() {
-    for (name, cage) in list::closed().into_iter().chain(list::open()) {
-        for levels in 0..5 {
-            let patches = patches(&cage, levels);
-            let bend = largest_bend(&patches);
-            println!("{name} {levels}: {bend:?}");
+    let open = list::open().into_iter().map(|(name, cage, _)| (name, cage));
+    for (name, cage) in list::closed().into_iter().chain(open) {
+        for levels in 0..4 {
+            let bend = largest_bend(&patches(&cage, levels));
+            assert!(bend < 0.01, "{name}, {levels} levels: {bend} degrees");
         }
     }
 }

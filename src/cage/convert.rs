@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::accuracy::Tolerance;
+use super::accuracy::{Tolerance, Tolerances};
 use super::error::CageError;
 use super::level::{Level, NONE};
 use super::net::{BORDER_CORNER, SIDE, runs_along};
@@ -22,8 +22,9 @@ pub const MOST_LEVELS: u32 = 10;
 /// How cages become patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Levels of refinement around what is not regular, up to [`MOST_LEVELS`]. There are more, up to 5, where these leave
-    /// the surface farther off than they do around vertices with 3 or 5 edges.
+    /// Levels of refinement around what is not regular, up to [`MOST_LEVELS`]. There are fewer where a cage is so fine that
+    /// these are not needed, and more, up to 5, where they leave the surface farther off than they do around a corner of a
+    /// cube.
     pub levels: u32,
 }
 
@@ -65,18 +66,14 @@ pub fn convert(
     }
     let mut patches = Patches::default();
     let mut level = level_of(cage)?;
-    let tolerance = Tolerance::new(&level.points, levels);
+    let tolerances = Tolerances::new(&level.points, levels);
     let mut open = Vec::new();
     for depth in 0.. {
         let kinds = kinds(&level);
-        let mut fates = fates(&level, &kinds, depth >= levels);
+        let mut fates = fates(&level, &kinds);
         limit::settle(&mut level, &kinds, &fates);
-        let tangents = Tangents::of(&level, &kinds, &fates);
-        if tolerance.matters(depth) {
-            tolerance.apply(&level, &kinds, &tangents, depth, &mut fates);
-            spread(&level, &mut fates);
-        }
-        let numbers = emit(&level, &kinds, &fates, &tangents, &mut patches);
+        emit_gregory(&level, &kinds, &mut fates, tolerances.at(depth), &mut patches);
+        let numbers = emit_bezier(&level, &kinds, &fates, &mut patches);
         close(&level, &open, &numbers, &mut patches)?;
         open = open_sides(&level, &fates, &numbers);
         progress((depth + 1) as f32 / (levels.max(depth) + 1) as f32);
@@ -88,27 +85,43 @@ pub fn convert(
     Ok(patches)
 }
 
-/// Adds the patches of a level, and gives the number of each face's Bézier patch.
-fn emit(
+/// Faces with one fate, in order.
+fn faces_with(fates: &[Fate], fate: Fate) -> Vec<u32> {
+    (0..fates.len() as u32).into_par_iter().filter(|&face| fates[face as usize] == fate).collect()
+}
+
+/// Adds the Gregory patches of a level, except for those that are too far off: their faces are refined.
+fn emit_gregory(
     level: &Level,
     kinds: &[Kind],
-    fates: &[Fate],
-    tangents: &Tangents,
+    fates: &mut [Fate],
+    tolerance: Option<Tolerance>,
     patches: &mut Patches,
-) -> Vec<u32> {
-    let of = |fate: Fate| -> Vec<u32> {
-        (0..fates.len() as u32).into_par_iter().filter(|&face| fates[face as usize] == fate).collect()
-    };
-    let mut numbers = vec![NONE; fates.len()];
-    let (bezier, gregory) = (of(Fate::Regular), of(Fate::Irregular));
-    for (&face, number) in bezier.iter().zip(patches.bezier.len()..) {
+) {
+    let (faces, first) = (faces_with(fates, Fate::Irregular), patches.gregory.len());
+    let tangents = Tangents::of(level, kinds, fates);
+    let patch = |&face: &u32| gregory::patch(level, kinds, &tangents, face as usize);
+    patches.gregory.par_extend(faces.par_iter().map(patch));
+    if let Some(tolerance) = tolerance {
+        tolerance.apply(level, kinds, (&faces, &patches.gregory[first..]), fates);
+        spread(level, fates);
+        let is_kept = |face: &u32| fates[*face as usize] == Fate::Irregular;
+        let mut kept = std::iter::repeat_n(true, first).chain(faces.iter().map(is_kept));
+        patches.gregory.retain(|_| kept.next().unwrap_or(true));
+    }
+    let place = |&face: &u32| place(level, kinds, face as usize);
+    patches.gregory_origins.par_extend(faces_with(fates, Fate::Irregular).par_iter().filter_map(place));
+}
+
+/// Adds the Bézier patches of a level, and gives the number of each face's patch.
+fn emit_bezier(level: &Level, kinds: &[Kind], fates: &[Fate], patches: &mut Patches) -> Vec<u32> {
+    let (faces, mut numbers) = (faces_with(fates, Fate::Regular), vec![NONE; fates.len()]);
+    for (&face, number) in faces.iter().zip(patches.bezier.len()..) {
         numbers[face as usize] = number as u32;
     }
-    patches.bezier.par_extend(bezier.par_iter().map(|&face| regular::patch(level, face as usize)));
-    patches.bezier_origins.par_extend(bezier.par_iter().filter_map(|&face| place(level, kinds, face as usize)));
-    let patch = |&face: &u32| gregory::patch(level, kinds, tangents, face as usize);
-    patches.gregory.par_extend(gregory.par_iter().map(patch));
-    patches.gregory_origins.par_extend(gregory.par_iter().filter_map(|&face| place(level, kinds, face as usize)));
+    patches.bezier.par_extend(faces.par_iter().map(|&face| regular::patch(level, face as usize)));
+    let place = |&face: &u32| place(level, kinds, face as usize);
+    patches.bezier_origins.par_extend(faces.par_iter().filter_map(place));
     numbers
 }
 

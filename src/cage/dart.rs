@@ -3,7 +3,7 @@
 //! 2000 explains how limits follow from them).
 
 use glam::DVec3;
-use libm::{cos, sin};
+use libm::cos;
 
 use super::eigen::Wave;
 use super::level::Level;
@@ -22,21 +22,21 @@ struct Weights {
 /// Where the vertex ends up.
 pub(super) fn position(level: &Level, vertex: usize) -> DVec3 {
     let here = level.points[vertex];
-    Sector::all(level, vertex).first().map_or(here, |sector| here + Weights::limit(sector.count()).apply(sector))
+    Sector::all(level, vertex)
+        .first()
+        .map_or(here, |sector| here + Weights::limit(sector.count()).apply(sector))
 }
 
 /// Two tangents: along the crease, and a quarter turn on.
-pub(super) fn tangents(sector: &Sector) -> [DVec3; 2] {
-    let wave = Wave::around(sector.count() as f64);
+pub(super) fn tangents(sector: &Sector, wave: &Wave) -> [DVec3; 2] {
     let weights = Weights::tangent(sector.count());
     let (mut found, mut wanted) = (0.0, 0.0);
     for place in 0..sector.count() {
-        let angle = place as f64 * wave.angle;
-        let (end, opposite) = (cos(angle), cos(angle + 0.5 * wave.angle));
+        let (end, opposite) = (wave.at(place)[0], wave.after(place)[0]);
         found += weights.ends[place] * end + weights.opposite[place] * wave.reach * opposite;
         wanted += wave.weight * (end * end + wave.ratio * wave.reach * opposite * opposite);
     }
-    [weights.apply(sector) * (wanted / found), wave.sum(sector, sin)]
+    [weights.apply(sector) * (wanted / found), wave.sums(sector)[1]]
 }
 
 impl Weights {
@@ -47,15 +47,13 @@ impl Weights {
         let root = (7.0 - 45.0_f64.sqrt()) * 0.5;
         let power = |place: usize| libm::pow(root, place as f64);
         let across = |place: usize| {
-            if place % count == 0 {
+            if place.is_multiple_of(count) {
                 return 0.0;
             }
             4.0 / (n * n) * (1.0 - (power(place) + power(count - place)) / (1.0 + power(count)))
         };
         let mut ends: Vec<f64> = (0..count).map(across).collect();
-        let between = |place: usize| {
-            (across(place) + across(place + 1)) / 12.0 + 1.0 / (3.0 * n * n)
-        };
+        let between = |place: usize| (across(place) + across(place + 1)) / 12.0 + 1.0 / (3.0 * n * n);
         let opposite: Vec<f64> = (0..count).map(between).collect();
         let beside = across(1) + across(count - 1);
         ends[0] = beside / 8.0 + (opposite[count - 1] + opposite[0]) * 0.5 + 3.0 / (n * n);
@@ -106,14 +104,19 @@ impl Weights {
     /// Less as much of the limit's weights as they contain.
     fn without(mut self, limit: &Self) -> Self {
         let sum: f64 = self.all().sum();
-        let pairs = self.ends.iter_mut().zip(&limit.ends).chain(self.opposite.iter_mut().zip(&limit.opposite));
+        let pairs =
+            self.ends.iter_mut().zip(&limit.ends).chain(self.opposite.iter_mut().zip(&limit.opposite));
         pairs.for_each(|(weight, part)| *weight -= sum * part);
         self.here -= sum * limit.here;
         self
     }
 
     fn scaled(mut self, factor: f64) -> Self {
-        self.ends.iter_mut().chain(&mut self.opposite).chain([&mut self.here]).for_each(|weight| *weight *= factor);
+        self.ends
+            .iter_mut()
+            .chain(&mut self.opposite)
+            .chain([&mut self.here])
+            .for_each(|weight| *weight *= factor);
         self
     }
 

@@ -1,5 +1,10 @@
 //! What can be wrong with a cage, and what to do about it.
 
+use std::path::Path;
+
+use super::Cage;
+use crate::error::Error;
+
 /// Why a cage has no surface. Faces, vertices and the like are counted from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CageError {
@@ -140,6 +145,16 @@ impl CageError {
         }
     }
 
+    /// The same, of a cage from a file: with the line, if it is known.
+    #[must_use]
+    pub fn in_file(&self, path: &Path, cage: &Cage) -> Error {
+        let line = self.face().and_then(|face| cage.face_lines.get(face as usize));
+        match line {
+            Some(&line) => Error::format(path, line as usize, self.problem(), self.remedy()),
+            None => Error::content(path, self.problem(), self.remedy()),
+        }
+    }
+
     /// What to do about it.
     #[must_use]
     pub const fn remedy(&self) -> &'static str {
@@ -156,7 +171,9 @@ impl CageError {
             Self::Sharpness { .. } => "give a number from 0; 10 or more is sharp for ever",
             Self::NoHole { .. } => "name a face that is there",
             Self::Levels { .. } => "ask for fewer levels",
-            Self::TooLarge { .. } => "ask for fewer levels, make creases less sharp (or sharp for ever), or split the mesh",
+            Self::TooLarge { .. } => {
+                "ask for fewer levels, make creases less sharp (or sharp for ever), or split the mesh"
+            }
             Self::Unbalanced { .. } => "please report it with the mesh",
         }
     }

@@ -98,7 +98,8 @@ type Nets = [[DVec3; 16]; 3];
 /// A Gregory patch's nets: its inner points are blends of two face points each, by the distances from the two borders
 /// beside them.
 fn gregory_nets(patch: &GregoryPatch, [u, v]: [f64; 2]) -> Nets {
-    let mut nets = [patch.net().map(|point| DVec3::from(point.map(f64::from))), [DVec3::ZERO; 16], [DVec3::ZERO; 16]];
+    let mut nets =
+        [patch.net().map(|point| DVec3::from(point.map(f64::from))), [DVec3::ZERO; 16], [DVec3::ZERO; 16]];
     let faces = patch.faces(0);
     let face = |l: usize| DVec3::new(faces.x[l].into(), faces.y[l].into(), faces.z[l].into());
     for (m, at) in INNER.into_iter().enumerate() {

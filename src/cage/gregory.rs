@@ -60,7 +60,8 @@ fn face_point(level: &Level, edge: Edge, corner: &Corner, near: DVec3, far: DVec
     let this_side = edge.this_side(level);
     match edge.other_side(level) {
         Some(other_side) if !level.is_crease(edge.half_edge) => {
-            let turned = (far - near) * (2.0 * corner.beside.cosine) - (near - corner.point) * end.beside.cosine;
+            let turned =
+                (far - near) * (2.0 * corner.beside.cosine) - (near - corner.point) * end.beside.cosine;
             near + turned / 3.0 + (this_side - other_side) / 18.0
         }
         _ => {

@@ -135,6 +135,14 @@ impl Level {
         self.sharp_vertices.get(vertex).copied().unwrap_or(0.0)
     }
 
+    /// Is nothing sharp at a vertex? Tells so of most; never of one where something is.
+    pub(super) fn is_plain(&self, vertex: usize) -> bool {
+        let has_twin = |&corner: &u32| self.twins[corner as usize] != NONE;
+        self.sharp_edges.is_empty()
+            && self.vertex_sharpness(vertex) == 0.0
+            && self.fan(vertex).iter().all(has_twin)
+    }
+
     /// Has a face four corners?
     pub(super) fn is_quad(&self, face: usize) -> bool {
         self.corners_of(face).len() == 4

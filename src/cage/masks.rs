@@ -72,6 +72,9 @@ impl Sharpness {
 
 /// Where a vertex moves; `middle` gives the middles of faces.
 pub(super) fn vertex_point(level: &Level, vertex: usize, middle: impl Fn(usize) -> DVec3) -> DVec3 {
+    if level.is_plain(vertex) {
+        return smooth_point(level, vertex, middle);
+    }
     let here = level.points[vertex];
     let sharpness = Sharpness::at(level, vertex);
     let own = level.vertex_sharpness(vertex);

@@ -20,12 +20,14 @@ mod sector;
 mod start;
 mod tags;
 mod tangents;
+mod texture;
 mod topology;
 
 pub use convert::{MOST_LEVELS, Options, Patches, convert};
 pub use error::CageError;
 pub use eval::{Evaluation, Evaluator};
 pub use origin::Origin;
+pub use texture::TextureMap;
 
 /// How the surface ends where the cage has a boundary; OpenSubdiv's names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

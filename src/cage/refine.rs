@@ -80,8 +80,9 @@ fn origin(level: &Level, fates: &[Fate], corner: usize) -> Option<Origin> {
         return None;
     }
     let at = corner - level.corners_of(face).start;
-    level.origins[face]
-        .map(|origin| if level.is_quad(face) { origin.quarter(at) } else { Origin::whole(origin.face, at as i32) })
+    level.origins[face].map(|origin| {
+        if level.is_quad(face) { origin.quarter(at) } else { Origin::whole(origin.face, at as i32) }
+    })
 }
 
 impl Children {

@@ -13,7 +13,9 @@ pub(super) fn patch(level: &Level, face: usize) -> BezierPatch {
         let before = level.previous(corner);
         let to_next = Edge { half_edge: corner, from_start: true };
         let to_previous = Edge { half_edge: before, from_start: false };
-        let inner = (level.point(corner) * 4.0 + to_next.this_side(level) + level.points[level.end(corner)] * 2.0) / 9.0;
+        let inner =
+            (level.point(corner) * 4.0 + to_next.this_side(level) + level.points[level.end(corner)] * 2.0)
+                / 9.0;
         points[CORNER[at]] = level.limits[level.vertex(corner)];
         points[TO_NEXT[at]] = to_next.regular_point(level).as_vec3().to_array();
         points[TO_PREVIOUS[at]] = to_previous.regular_point(level).as_vec3().to_array();

@@ -87,7 +87,7 @@ fn repeated(numbers: &[u32]) -> Option<u32> {
 }
 
 fn check_positions(cage: &Cage, level: &Level) -> Result<(), CageError> {
-    let wrong = cage.positions.iter().position(|point| point.iter().any(|x| !(x.abs() <= LARGEST)));
+    let wrong = cage.positions.iter().position(|point| !point.iter().all(|x| x.abs() <= LARGEST));
     let Some(vertex) = wrong else { return Ok(()) };
     let corner = level.corners.iter().position(|&other| other as usize == vertex);
     let face = corner.map(|corner| level.face_of(corner) as u32);

@@ -50,7 +50,8 @@ pub(super) fn kinds(level: &Level) -> Vec<Kind> {
 
 fn kind(level: &Level, vertex: usize) -> Kind {
     let (mut creases, mut is_settled) = (0, true);
-    for (half_edge, _) in level.edges_at(vertex) {
+    let edges = (!level.is_plain(vertex)).then(|| level.edges_at(vertex));
+    for (half_edge, _) in edges.into_iter().flatten() {
         let sharpness = level.edge_sharpness(half_edge);
         creases += u32::from(sharpness >= INFINITELY_SHARP);
         is_settled &= sharpness == 0.0 || sharpness >= INFINITELY_SHARP;
@@ -83,27 +84,25 @@ fn is_regular(level: &Level, vertex: usize, rule: Rule) -> bool {
     })
 }
 
-/// Fates of all faces; `is_last`: nothing is refined that need not be.
-pub(super) fn fates(level: &Level, kinds: &[Kind], is_last: bool) -> Vec<Fate> {
+/// Fates of all faces, if whatever may be a Gregory patch becomes one.
+pub(super) fn fates(level: &Level, kinds: &[Kind]) -> Vec<Fate> {
     let mut fates: Vec<Fate> = (0..level.face_count())
         .into_par_iter()
         .with_min_len(1024)
-        .map(|face| fate(level, kinds, is_last, face))
+        .map(|face| fate(level, kinds, face))
         .collect();
-    if is_last {
-        spread(level, &mut fates);
-    }
+    spread(level, &mut fates);
     fates
 }
 
-fn fate(level: &Level, kinds: &[Kind], is_last: bool, face: usize) -> Fate {
+fn fate(level: &Level, kinds: &[Kind], face: usize) -> Fate {
     let corners = &level.corners[level.corners_of(face)];
     let all = |holds: fn(&Kind) -> bool| corners.iter().all(|&vertex| holds(&kinds[vertex as usize]));
     if level.origins[face].is_none() {
         Fate::Hidden
     } else if all(|kind| kind.is_regular) {
         Fate::Regular
-    } else if is_last && all(|kind| kind.is_settled) {
+    } else if all(|kind| kind.is_settled) {
         Fate::Irregular
     } else {
         Fate::Refined

@@ -1,11 +1,10 @@
 //! Control points beside irregular vertices, found once for all patches that share them.
 
 use glam::DVec3;
-use libm::{cos, sin};
 use rayon::prelude::*;
 
 use super::dart;
-use super::eigen::Wave;
+use super::eigen::{Wave, Waves};
 use super::fan::Fan;
 use super::level::{Level, NONE};
 use super::sector::Sector;
@@ -47,16 +46,19 @@ impl Tangents {
             return tangents;
         }
         tangents.slots = vec![NONE; level.corners.len()];
+        let waves = &Waves::new();
         for some in vertices.chunks(1 << 16) {
             let found: Vec<_> = some
                 .par_iter()
                 .flat_map_iter(|&vertex| {
-                    let (limit, rule) = (DVec3::from(level.limits[vertex].map(f64::from)), kinds[vertex].rule);
-                    Sector::all(level, vertex).into_iter().map(move |sector| (spokes(&sector, limit, rule), sector))
+                    let (limit, rule) =
+                        (DVec3::from(level.limits[vertex].map(f64::from)), kinds[vertex].rule);
+                    let with = move |sector: Sector| (spokes(&sector, limit, rule, waves), sector.corners);
+                    Sector::all(level, vertex).into_iter().map(with)
                 })
                 .collect();
-            for (spokes, sector) in found {
-                for (place, corner) in sector.corners.into_iter().enumerate() {
+            for (spokes, corners) in found {
+                for (place, corner) in corners.into_iter().enumerate() {
                     tangents.slots[corner] = (tangents.spokes.len() + place) as u32;
                 }
                 tangents.spokes.extend(spokes);
@@ -85,13 +87,21 @@ fn irregular(level: &Level, kinds: &[Kind], fates: &[Fate]) -> Vec<usize> {
 }
 
 /// Control points along the edges of a sector, one more than it has faces.
-fn spokes(sector: &Sector, limit: DVec3, rule: Rule) -> Vec<Spoke> {
-    let (all_around, half_around) =
-        (Wave::around(sector.count() as f64), Wave::around(2.0 * sector.count() as f64));
+fn spokes(sector: &Sector, limit: DVec3, rule: Rule, waves: &Waves) -> Vec<Spoke> {
+    let count = sector.count();
     match rule {
-        Rule::Smooth => turned(limit, &all_around, [cos, sin].map(|shape| all_around.sum(sector, shape)), sector.count(), 1.0),
-        Rule::Dart => turned(limit, &all_around, dart::tangents(sector), sector.count(), 1.0),
-        Rule::Crease => turned(limit, &half_around, crease(sector, &half_around), sector.count(), -1.0),
+        Rule::Smooth => {
+            let wave = waves.around(count);
+            turned(limit, &wave, wave.sums(sector), count, 1.0)
+        }
+        Rule::Dart => {
+            let wave = waves.around(count);
+            turned(limit, &wave, dart::tangents(sector, &wave), count, 1.0)
+        }
+        Rule::Crease => {
+            let wave = waves.around(2 * count);
+            turned(limit, &wave, crease(sector, &wave), count, -1.0)
+        }
         Rule::Corner => corner(sector, limit),
     }
 }
@@ -100,11 +110,11 @@ fn spokes(sector: &Sector, limit: DVec3, rule: Rule) -> Vec<Spoke> {
 /// the first one's `last` times: the same bits as from the other side of the edge.
 fn turned(limit: DVec3, wave: &Wave, [along, across]: [DVec3; 2], count: usize, last: f64) -> Vec<Spoke> {
     let at = |place: usize| {
-        let angle = place as f64 * wave.angle;
+        let [cosine, sine] = wave.at(place);
         match place {
             0 => along,
             _ if place == count => along * last,
-            _ => along * cos(angle) + across * sin(angle),
+            _ => along * cosine + across * sine,
         }
     };
     (0..=count).map(|place| Spoke { point: limit + at(place), cosine: wave.cosine }).collect()
@@ -117,14 +127,11 @@ fn crease(sector: &Sector, wave: &Wave) -> [DVec3; 2] {
     if count == 1 {
         return [along, DVec3::ZERO];
     }
-    let (mut sum, angle) = (0.0, wave.angle);
-    for place in 0..count {
-        sum += sin(place as f64 * angle) + wave.ratio * sin((place as f64 + 0.5) * angle);
-    }
-    let beside = sin(angle) / 16.0 + wave.ratio * sin(0.5 * angle) * 0.25;
+    let sum: f64 = (0..count).map(|place| wave.at(place)[1] + wave.ratio * wave.after(place)[1]).sum();
+    let beside = wave.at(1)[1] / 16.0 + wave.ratio * wave.after(0)[1] * 0.25;
     let on_crease = (beside - sum * 0.125) / (wave.eigenvalue - 0.25);
     let ends = (sector.ends[0] + sector.ends[count]) * (on_crease * wave.weight);
-    [along, (wave.sum(sector, sin) + ends) * 2.0]
+    [along, (wave.sums(sector)[1] + ends) * 2.0]
 }
 
 /// Where the vertex does not move: in the plane of the two creases, if they span one, so that no edge between them is a bend;

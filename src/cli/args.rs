@@ -15,6 +15,8 @@ use micropoly::{
     RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
 };
 
+use super::eval::EvalArguments;
+
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
 #[command(version, arg_required_else_help = true)]
@@ -37,6 +39,8 @@ pub(crate) enum Command {
     Diff(DiffArguments),
     /// Find out, device by device and stage by stage, whether all devices give the same bits.
     Conform(ConformArguments),
+    /// Say where the surface of a cage is at some of its places.
+    Eval(EvalArguments),
     /// Measure subdivision: scheduler × batch × scene × backend (Weber 2014, Table 7.2).
     Bench(BenchArguments),
 }
@@ -260,6 +264,9 @@ pub(crate) struct BenchArguments {
     /// sort-last to compare with. Without a scene: the built-in teapot.
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing"])]
     pub(crate) raster: bool,
+    /// Measure how cages become patches instead: regular tori, tori with extraordinary vertices, and triangles.
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "scenes"])]
+    pub(crate) cage: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]

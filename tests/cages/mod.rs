@@ -2,8 +2,8 @@
 
 #![allow(dead_code)] // each test uses its part of it
 
-pub mod list;
-pub mod oracle;
+pub(crate) mod list;
+pub(crate) mod oracle;
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use glam::DVec3;
 use micropoly::cage::{Boundary, Cage, Crease, Evaluator, Patches};
 
 /// A file of the shared data; where it is missing a test says that it is skipped, and passes.
-pub fn shared(test: &str, name: &str) -> Option<PathBuf> {
+pub(crate) fn shared(test: &str, name: &str) -> Option<PathBuf> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     if path.is_file() {
         return Some(path);
@@ -21,12 +21,12 @@ pub fn shared(test: &str, name: &str) -> Option<PathBuf> {
 }
 
 /// Reads vertices, faces and tags of an OBJ file, without any check.
-pub fn read_obj(path: &Path) -> Cage {
+pub(crate) fn read_obj(path: &Path) -> Cage {
     obj(&std::fs::read_to_string(path).expect("a text"))
 }
 
 /// The same, from a text.
-pub fn obj(text: &str) -> Cage {
+pub(crate) fn obj(text: &str) -> Cage {
     let mut cage = Cage::default();
     for line in text.lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
@@ -52,16 +52,17 @@ pub fn obj(text: &str) -> Cage {
 }
 
 /// A cage of these vertices and faces.
-pub fn cage_of(positions: Vec<[f64; 3]>, faces: &[&[u32]]) -> Cage {
+pub(crate) fn cage_of(positions: Vec<[f64; 3]>, faces: &[&[u32]]) -> Cage {
     let face_sizes = faces.iter().map(|face| face.len() as u32).collect();
     Cage { positions, face_sizes, corners: faces.concat(), ..Cage::default() }
 }
 
 /// Rows of quads with heights that are not smooth at all.
-pub fn bumpy_grid(columns: u32, rows: u32) -> Cage {
+pub(crate) fn bumpy_grid(columns: u32, rows: u32) -> Cage {
     let mut random = fastrand::Rng::with_seed(7);
     let place = |k: u32| [f64::from(k % (columns + 1)), f64::from(k / (columns + 1))];
-    let positions = (0..(columns + 1) * (rows + 1)).map(|k| [place(k)[0], place(k)[1], random.f64()]).collect();
+    let positions =
+        (0..(columns + 1) * (rows + 1)).map(|k| [place(k)[0], place(k)[1], random.f64()]).collect();
     let mut faces = Vec::new();
     for face in 0..columns * rows {
         let a = face / columns * (columns + 1) + face % columns;
@@ -70,11 +71,11 @@ pub fn bumpy_grid(columns: u32, rows: u32) -> Cage {
     cage_of(positions, &faces.iter().map(|face| &face[..]).collect::<Vec<_>>())
 }
 
-pub fn crease(a: u32, b: u32, sharpness: f32) -> Crease {
+pub(crate) fn crease(a: u32, b: u32, sharpness: f32) -> Crease {
     Crease { vertices: [a, b], sharpness }
 }
 
-pub fn cube() -> Cage {
+pub(crate) fn cube() -> Cage {
     let positions = (0..8).map(|k| [0, 1, 2].map(|axis| f64::from(2 * (k >> axis & 1) - 1))).collect();
     cage_of(
         positions,
@@ -82,13 +83,13 @@ pub fn cube() -> Cage {
     )
 }
 
-pub fn tetrahedron() -> Cage {
+pub(crate) fn tetrahedron() -> Cage {
     let positions = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     cage_of(positions, &[&[0, 1, 2], &[0, 3, 1], &[0, 2, 3], &[1, 3, 2]])
 }
 
 /// Two poles with this many triangles each, and a belt of quads between.
-pub fn drum(count: u32) -> Cage {
+pub(crate) fn drum(count: u32) -> Cage {
     let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(count);
     let ring = |z: f64| (0..count).map(move |k| [libm::cos(angle(k)), libm::sin(angle(k)), z]);
     let mut positions: Vec<[f64; 3]> = ring(-0.5).chain(ring(0.5)).collect();
@@ -104,9 +105,11 @@ pub fn drum(count: u32) -> Cage {
 }
 
 /// A disc of this many quads around a vertex, bent, as a part of nothing: its boundary is that of the surface.
-pub fn star(count: u32) -> Cage {
+pub(crate) fn star(count: u32) -> Cage {
     let angle = |k: u32| std::f64::consts::PI * f64::from(k) / f64::from(count);
-    let at = |k: u32, r: f64| [r * libm::cos(angle(k)), r * libm::sin(angle(k)), 0.3 * r * libm::cos(3.0 * angle(k))];
+    let at = |k: u32, r: f64| {
+        [r * libm::cos(angle(k)), r * libm::sin(angle(k)), 0.3 * r * libm::cos(3.0 * angle(k))]
+    };
     let mut positions = vec![[0.0, 0.0, 0.4]];
     positions.extend((0..2 * count).map(|k| at(k, if k % 2 == 0 { 1.0 } else { 1.5 })));
     let faces: Vec<[u32; 4]> =
@@ -114,8 +117,8 @@ pub fn star(count: u32) -> Cage {
     cage_of(positions, &faces.iter().map(|face| &face[..]).collect::<Vec<_>>())
 }
 
-/// Lets each face become four and the surface wider, so that what is at the middle is not near the boundary.
-pub fn bbox_diagonal(cage: &Cage) -> f64 {
+/// The diagonal of the box around a cage.
+pub(crate) fn bbox_diagonal(cage: &Cage) -> f64 {
     let points = || cage.positions.iter().map(|&point| DVec3::from(point));
     let low = points().fold(DVec3::INFINITY, DVec3::min);
     points().fold(DVec3::NEG_INFINITY, DVec3::max).distance(low)
@@ -123,30 +126,30 @@ pub fn bbox_diagonal(cage: &Cage) -> f64 {
 
 /// How far a surface is from where it should be, at some places.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Errors {
+pub(crate) struct Errors {
     /// Along the normal, over the diagonal of the cage's box.
-    pub offset: f64,
+    pub(crate) offset: f64,
     /// Where it is not smooth: at the same parameter, over the diagonal.
-    pub distance: f64,
+    pub(crate) distance: f64,
     /// Between normals, degrees.
-    pub angle: f64,
+    pub(crate) angle: f64,
     /// Along the normal, in Bézier patches alone.
-    pub regular: f64,
-    pub places: usize,
+    pub(crate) regular: f64,
+    pub(crate) places: usize,
 }
 
 /// A place, and what is there.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    pub face: u32,
-    pub sub: i32,
-    pub place: [f64; 2],
-    pub position: DVec3,
-    pub normal: DVec3,
-    pub is_smooth: bool,
+pub(crate) struct Sample {
+    pub(crate) face: u32,
+    pub(crate) sub: i32,
+    pub(crate) place: [f64; 2],
+    pub(crate) position: DVec3,
+    pub(crate) normal: DVec3,
+    pub(crate) is_smooth: bool,
 }
 
-pub fn compare(patches: &Patches, samples: &[Sample], diagonal: f64) -> Errors {
+pub(crate) fn compare(patches: &Patches, samples: &[Sample], diagonal: f64) -> Errors {
     let evaluator = Evaluator::new(patches);
     let bezier_only = Patches { gregory: vec![], gregory_origins: vec![], ..patches.clone() };
     let bezier_only = Evaluator::new(&bezier_only);
@@ -157,7 +160,8 @@ pub fn compare(patches: &Patches, samples: &[Sample], diagonal: f64) -> Errors {
             panic!("nothing at {sample:?}");
         };
         let off = (found.position - sample.position) / diagonal;
-        let offset = if sample.is_smooth || sample.normal != DVec3::ZERO { off.dot(sample.normal).abs() } else { 0.0 };
+        let offset =
+            if sample.is_smooth || sample.normal != DVec3::ZERO { off.dot(sample.normal).abs() } else { 0.0 };
         errors.offset = errors.offset.max(offset);
         if bezier_only.at(sample.face, sample.sub, u, v).is_some() {
             errors.regular = errors.regular.max(if sample.is_smooth { offset } else { off.length() });
@@ -172,7 +176,7 @@ pub fn compare(patches: &Patches, samples: &[Sample], diagonal: f64) -> Errors {
     errors
 }
 
-pub fn boundary(name: &str) -> Boundary {
+pub(crate) fn boundary(name: &str) -> Boundary {
     match name {
         "none" => Boundary::None,
         "edge_only" => Boundary::EdgeOnly,

@@ -53,7 +53,7 @@ fn less(sharpness: f32) -> f32 {
 }
 
 /// Limit positions and normals at all vertices that refining so often gives.
-pub fn samples(cage: &Cage, levels: u32) -> Vec<Sample> {
+pub(crate) fn samples(cage: &Cage, levels: u32) -> Vec<Sample> {
     let mut mesh = Mesh::of(cage);
     for _ in 0..levels {
         mesh = mesh.refined();
@@ -82,10 +82,13 @@ impl Around {
 impl Mesh {
     fn of(cage: &Cage) -> Self {
         let mut corners = cage.corners.iter().map(|&vertex| vertex as usize);
-        let origin = |face| Origin { face, sub: -1, low: [0.0; 2], size: 1.0, is_drawn: !cage.holes.contains(&face) };
+        let origin =
+            |face| Origin { face, sub: -1, low: [0.0; 2], size: 1.0, is_drawn: !cage.holes.contains(&face) };
         let faces = cage.face_sizes.iter().zip(0..);
-        let faces = faces
-            .map(|(&size, face)| Face { corners: corners.by_ref().take(size as usize).collect(), origin: origin(face) });
+        let faces = faces.map(|(&size, face)| Face {
+            corners: corners.by_ref().take(size as usize).collect(),
+            origin: origin(face),
+        });
         let mut mesh = Self {
             faces: faces.collect(),
             points: cage.positions.iter().map(|&point| DVec3::from(point)).collect(),
@@ -127,7 +130,9 @@ impl Mesh {
         let mut seen: BTreeSet<usize> = around.faces[vertex].first().copied().into_iter().collect();
         let mut waiting: Vec<usize> = seen.iter().copied().collect();
         while let Some(face) = waiting.pop() {
-            for end in around.ends[vertex].iter().filter(|&&end| around.edges[&key(vertex, end)].contains(&face)) {
+            for end in
+                around.ends[vertex].iter().filter(|&&end| around.edges[&key(vertex, end)].contains(&face))
+            {
                 for &other in &around.edges[&key(vertex, *end)] {
                     if seen.insert(other) {
                         waiting.push(other);
@@ -237,7 +242,8 @@ impl Mesh {
 
     fn limits(&self) -> Vec<Sample> {
         let around = Around::of(self);
-        let limits: Vec<(DVec3, DVec3, bool)> = (0..self.points.len()).map(|v| self.limit(&around, v)).collect();
+        let limits: Vec<(DVec3, DVec3, bool)> =
+            (0..self.points.len()).map(|v| self.limit(&around, v)).collect();
         let mut samples = Vec::new();
         for face in self.faces.iter().filter(|face| face.origin.is_drawn) {
             let Origin { face: number, sub, low, size, .. } = face.origin;
@@ -278,7 +284,11 @@ impl Mesh {
                 .sum()
         };
         let quarter = std::f64::consts::FRAC_PI_2;
-        (position, tangent(0.0).cross(tangent(-quarter)).normalize_or_zero(), ends.is_empty())
+        // The mask of a smooth vertex is only nearly that of a vertex where a crease ends.
+        if !ends.is_empty() {
+            return (position, DVec3::ZERO, false);
+        }
+        (position, tangent(0.0).cross(tangent(-quarter)).normalize_or_zero(), true)
     }
 
     /// Ends of the edges of a smooth vertex in order, and the vertices opposite between them.
