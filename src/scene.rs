@@ -9,11 +9,12 @@ use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
 use micropoly_core::displacement::{Displacement, Unfit};
 
 use crate::error::{Error, Result};
+use crate::geometry::{self, ReadProgress, Reading};
 use crate::path::CameraPath;
 use crate::records::Shapes;
 use crate::shape::Shape;
 use crate::shot::Blur;
-use crate::{bpt, mscene, scene_file};
+use crate::{mscene, rib, scene_file};
 
 /// Patches that share a transform and a material.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,6 +87,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The objects.
     pub objects: Vec<SceneObject>,
+    /// What of the file is not drawn as it says, for whoever reads it.
+    pub notes: Vec<String>,
 }
 
 /// A scene as devices read it.
@@ -150,23 +153,40 @@ impl SceneObject {
 }
 
 impl Scene {
-    /// Reads a scene file (`.toml` or `.mscene`), or a patch file (`.bpt`) with a camera that shows all of it.
+    /// Reads a scene file (`.toml`, `.mscene` or `.rib`), or a file of geometry (`.obj` or `.bpt`) with a camera that shows
+    /// all of it.
     ///
     /// # Errors
     /// [`Error::Read`], [`Error::Format`] with file and line, [`Error::Content`] with file and what in it, or
     /// [`Error::Scene`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
+        Self::load_with(path, &Reading::default(), &|_| {})
+    }
+
+    /// As [`Scene::load`], with a say in how cages are read; `progress` is told which share of a cage has been refined.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load_with(path: impl AsRef<Path>, reading: &Reading, progress: ReadProgress<'_>) -> Result<Self> {
         let path = path.as_ref();
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("bpt") => Self::around(path.display().to_string(), Shape::of_bezier(bpt::load(path)?)),
-            Some("toml") => scene_file::load(path),
+            Some("bpt" | "obj") => {
+                let mut notes = Vec::new();
+                let shape = geometry::read(path, reading, progress, &mut notes)?;
+                Ok(Self { notes, ..Self::around(path.display().to_string(), shape)? })
+            }
+            Some("toml") => scene_file::load_with(path, reading, progress),
             Some("mscene") => mscene::load(path),
+            Some("rib") => rib::load_scene(path, reading.cage.levels),
             _ if !path.exists() => {
                 let source = std::io::Error::from(std::io::ErrorKind::NotFound);
                 Err(Error::Read { path: path.to_owned(), source })
             }
             _ => Err(Error::scene(
-                format!("{}: a scene file ends in .toml or .mscene, a patch file in .bpt", path.display()),
+                format!(
+                    "{}: a scene file ends in .toml, .mscene or .rib, a file of geometry in .obj or .bpt",
+                    path.display()
+                ),
                 "rename the file, or convert it",
             )),
         }
@@ -195,6 +215,7 @@ impl Scene {
             ambient: Vec3::splat(0.15),
             lights: vec![Light::Directional { to_light, colour: Vec3::splat(0.9) }],
             objects,
+            notes: Vec::new(),
         })
     }
 
@@ -229,6 +250,12 @@ impl Scene {
     #[must_use]
     pub fn gregory_count(&self) -> usize {
         self.objects.iter().map(|object| object.shape.gregory.len()).sum()
+    }
+
+    /// Number of rational patches among them.
+    #[must_use]
+    pub fn rational_count(&self) -> usize {
+        self.objects.iter().map(|object| object.shape.rational.len()).sum()
     }
 
     /// Corners of the box around all control points, in world space.

@@ -1,10 +1,12 @@
 //! Arguments and options, checked as they are read.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 
 use bytesize::ByteSize;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
+use micropoly::cage::{MOST_LEVELS, Options};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
 use micropoly::core::reconstruction::{MAX_RADIUS, MIN_RADIUS};
@@ -12,10 +14,11 @@ use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
 use micropoly::{
     Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Oracle, Profile, Rasteriser,
-    RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
+    Reading, RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
 };
 
-use super::eval::EvalArguments;
+use super::eval::{BoundaryChoice, EvalArguments};
+use super::progress::Progress;
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -45,10 +48,51 @@ pub(crate) enum Command {
     Bench(BenchArguments),
 }
 
+/// What is read, and how.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// Scene file (.toml, .mscene, .rib) or file of geometry (.obj, .bpt).
+    scene: PathBuf,
+    /// Levels of refinement of Catmull-Clark cages around what is not regular.
+    #[arg(long, value_name = "N", default_value_t = Options::default().levels,
+          value_parser = value_parser!(u32).range(0..=i64::from(MOST_LEVELS)))]
+    cc_levels: u32,
+    /// How the surfaces of cages end. [default: as the file says, else edge_and_corner]
+    #[arg(long, value_enum)]
+    boundary: Option<BoundaryChoice>,
+    /// Draw the polygons of .obj files as they are, not as Catmull-Clark cages.
+    #[arg(long, conflicts_with_all = ["cc_levels", "boundary"])]
+    polygons: bool,
+}
+
+impl SceneArguments {
+    /// Reads the scene, and says what of it is not drawn.
+    pub(crate) fn load(&self, style: ProgressStyle) -> micropoly::Result<Scene> {
+        let reading = Reading {
+            cage: Options { levels: self.cc_levels },
+            boundary: self.boundary.map(Into::into),
+            polygons: self.polygons,
+        };
+        let progress = Mutex::new(Progress::new(style, 100, "per cent"));
+        let scene = Scene::load_with(&self.scene, &reading, &|share| {
+            if let Ok(mut progress) = progress.lock() {
+                progress.update((share * 100.0) as u64, || "refining".to_owned());
+            }
+        })?;
+        if let Ok(mut progress) = progress.lock() {
+            progress.finish();
+        }
+        for note in &scene.notes {
+            eprintln!("note: {note}");
+        }
+        Ok(scene)
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct RenderArguments {
-    /// Scene file (.toml, .mscene) or patch file (.bpt).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
     /// Image file to write: .png, or .exr with linear colour, coverage, depth, normal, uv, patch and number of samples. With
     /// --frames, # in its name stands for the number of the frame (#### for at least four digits).
     #[arg(short, long, value_name = "FILE", value_parser = image_path)]
@@ -123,8 +167,8 @@ impl RenderArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct TessellateArguments {
-    /// Scene file (.toml, .mscene) or patch file (.bpt).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
     /// Mesh file to write (.obj, .ply or .glb).
     #[arg(short, long, value_name = "FILE", value_parser = mesh_path)]
     pub(crate) output: (PathBuf, Format),
@@ -185,8 +229,8 @@ impl TessellateArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArguments {
-    /// Scene file (.toml, .mscene) or patch file (.bpt).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,
 }

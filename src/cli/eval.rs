@@ -84,8 +84,16 @@ pub(crate) fn run(arguments: &EvalArguments) -> Result<()> {
 
 /// The cage in a mesh file.
 fn cage_of(path: &Path) -> Result<Cage> {
-    let problem = format!("{}: meshes cannot be read yet", path.display());
-    Err(Error::scene(problem, "this build has no reader of OBJ files"))
+    let file = micropoly::obj::load(path)?;
+    for warning in &file.warnings {
+        eprintln!("note: {warning}");
+    }
+    file.cage.ok_or_else(|| {
+        Error::scene(
+            format!("{}: there is no face in it", path.display()),
+            "choose a file with a polygon mesh",
+        )
+    })
 }
 
 fn diagonal(cage: &Cage) -> f64 {

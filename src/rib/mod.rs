@@ -40,9 +40,6 @@ pub use place::Place;
 use crate::error::{Result, read_bytes};
 use crate::scene::Scene;
 
-/// Refinement of cages around what is not regular.
-const LEVELS: u32 = 3;
-
 /// Reads a file and the archives it names.
 ///
 /// # Errors
@@ -51,14 +48,12 @@ pub fn load(path: &Path) -> Result<RibScene> {
     parse_bytes(path, &read_bytes(path)?)
 }
 
-/// Reads a file as a scene, and what of it cannot be drawn as it should.
+/// Reads a file as a scene. Cages are refined so often around what is not regular.
 ///
 /// # Errors
 /// As [`load`], and [`Error::Format`](crate::Error::Format) for geometry that cannot be drawn.
-pub fn load_scene(path: &Path) -> Result<(Scene, Vec<String>)> {
-    let file = load(path)?;
-    let scene = lower::scene(path.display().to_string(), &file, LEVELS)?;
-    Ok((scene, file.warnings))
+pub fn load_scene(path: &Path, levels: u32) -> Result<Scene> {
+    lower::scene(path.display().to_string(), &load(path)?, levels)
 }
 
 /// Reads a scene from bytes; archives that it names are looked for beside `path`.

@@ -25,6 +25,7 @@ pub fn scene(name: String, file: &RibScene, levels: u32) -> Result<Scene> {
         ambient: made.ambient,
         lights: made.lights,
         objects: objects.collect(),
+        notes: file.warnings.clone(),
     })
 }
 
