@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly_core::abi::{FLAG_INSTANCES, FLAG_LAYERS, Frame, MAX_COORDINATE, Object, Patch};
-use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Oracle, Profile};
 use micropoly_core::displacement::{Displacement, Unfit};
 
 use crate::error::{Error, Result};
@@ -170,10 +170,12 @@ impl Scene {
     pub fn load_with(path: impl AsRef<Path>, reading: &Reading, progress: ReadProgress<'_>) -> Result<Self> {
         let path = path.as_ref();
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("bpt" | "obj") => {
+            Some(kind @ ("bpt" | "obj")) => {
                 let mut notes = Vec::new();
                 let shape = geometry::read(path, reading, progress, &mut notes)?;
-                Ok(Self { notes, ..Self::around(path.display().to_string(), shape)? })
+                // What writes OBJ files takes y for up, mostly.
+                let up = if kind == "obj" { DVec3::Y } else { DVec3::Z };
+                Ok(Self { notes, ..Self::around_upright(path.display().to_string(), shape, up)? })
             }
             Some("toml") => scene_file::load_with(path, reading, progress),
             Some("mscene") => mscene::load(path),
@@ -197,13 +199,19 @@ impl Scene {
     /// # Errors
     /// [`Error::Scene`] if the patches lie too far out to be seen at all.
     pub fn around(name: String, shape: Shape) -> Result<Self> {
+        Self::around_upright(name, shape, DVec3::Z)
+    }
+
+    /// The same, where another axis is up.
+    fn around_upright(name: String, shape: Shape, up: DVec3) -> Result<Self> {
         let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5, opacity: 1.0 };
         let objects = vec![SceneObject::new(shape, material)];
         let (low, high) = bounds_of(&objects);
         let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = if radius > 0.0 { radius } else { 1.0 };
-        let eye = middle + DVec3::new(0.5, -0.75, 0.45).normalize() * radius * 3.0;
-        let camera = Camera::look_at(eye, middle, DVec3::Z, 40.0, radius * 0.01)
+        let front = up.cross(DVec3::X);
+        let eye = middle + (DVec3::X * 0.5 - front * 0.75 + up * 0.45).normalize() * radius * 3.0;
+        let camera = Camera::look_at(eye, middle, up, 40.0, radius * 0.01)
             .ok_or_else(|| Error::scene("the patches lie too far out", "scale them down"))?;
         let to_light = camera.view.inverse().transform_vector3(DVec3::new(-0.5, 0.8, 0.9));
         Ok(Self {
@@ -323,11 +331,30 @@ impl Scene {
         for object in &self.objects {
             object.check_displacement().map_err(|(problem, remedy)| Error::scene(problem, remedy))?;
         }
+        if options.oracle == Oracle::Flatness {
+            return self.check_flatness(options);
+        }
         if self.is_displaced() && options.profile == Profile::Weber2014 {
             let problem = "an object is displaced, which the rules of Weber's program do not know";
             return Err(Error::scene(problem, "leave out --profile weber2014, or the displacement"));
         }
         Ok(())
+    }
+
+    fn check_flatness(&self, options: &FrameOptions) -> Result<()> {
+        let problem = if self.is_displaced() {
+            "an object is displaced, and bumps are not looked at where surfaces are to be flat"
+        } else if options.profile == Profile::Weber2014 {
+            "the rules of Weber's program do not ask whether surfaces are flat"
+        } else if !(options.tolerance > 0.0 && options.tolerance <= 1.0e6) {
+            return Err(Error::scene(
+                format!("a tolerance of {} pixels is not possible", options.tolerance),
+                "choose one above 0, up to 1000000",
+            ));
+        } else {
+            return Ok(());
+        };
+        Err(Error::scene(problem, "use --oracle size"))
     }
 
     /// The scene as devices read it.

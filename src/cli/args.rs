@@ -182,6 +182,8 @@ pub(crate) struct TessellateArguments {
     #[arg(long, value_name = "N", default_value = "16", allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_RATE)))]
     dice: u32,
+    #[command(flatten)]
+    oracle: OracleArguments,
     /// Levels of subdivision: a patch is halved at most N - 1 times.
     #[arg(long, value_name = "N", default_value = "41", allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_LEVELS)))]
@@ -220,6 +222,8 @@ impl TessellateArguments {
             bound: self.dice as f32 * self.micropolygon_size,
             rate: self.dice,
             size: self.micropolygon_size,
+            oracle: self.oracle.oracle.into(),
+            tolerance: self.oracle.tolerance(),
             levels: self.max_depth,
             whole: !self.visible,
             ..FrameOptions::default()
@@ -400,13 +404,8 @@ pub(crate) struct FrameArguments {
     /// Length of a micropolygon in pixels; larger where --dice of them would not be as long as --bound.
     #[arg(long, value_name = "PIXELS", default_value = "1", allow_negative_numbers = true, value_parser = pixels)]
     micropolygon_size: f32,
-    /// When a surface is split no further: when it is no longer than --bound, then it is diced; or when it is flat, then it
-    /// is one micropolygon.
-    #[arg(long, value_enum, default_value_t = OracleChoice::Size, conflicts_with = "profile")]
-    oracle: OracleChoice,
-    /// How far what is drawn may be from the surface, for --oracle flatness. [default: 0.5]
-    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = pixels, requires = "oracle")]
-    tolerance: Option<f32>,
+    #[command(flatten)]
+    oracle: OracleArguments,
     /// How the grids of neighbouring surfaces meet; all but watertight leave cracks, and are there to compare with.
     #[arg(long, value_enum, default_value_t = BordersChoice::Watertight)]
     borders: BordersChoice,
@@ -482,8 +481,8 @@ impl FrameArguments {
             bound: self.bound.unwrap_or(bound),
             rate,
             size: self.micropolygon_size,
-            oracle: self.oracle.into(),
-            tolerance: self.tolerance.unwrap_or(FrameOptions::default().tolerance),
+            oracle: self.oracle.oracle.into(),
+            tolerance: self.oracle.tolerance(),
             borders: self.borders.into(),
             levels: self.max_depth.unwrap_or(if self.is_weber() { 23 } else { MAX_LEVELS }),
             cull_backfaces: self.cull_backfaces,
@@ -550,6 +549,24 @@ pub(crate) enum ProfileChoice {
     /// As Weber's program of 2014 does it.
     #[value(name = "weber2014")]
     Weber2014,
+}
+
+/// When a surface is split no further.
+#[derive(Debug, Args)]
+struct OracleArguments {
+    /// When a surface is split no further: when it is no longer than --bound or --dice allow, then it is diced; or when it is
+    /// flat, then it is one micropolygon.
+    #[arg(long, value_enum, default_value_t = OracleChoice::Size)]
+    oracle: OracleChoice,
+    /// How far what is drawn may be from the surface, for --oracle flatness. [default: 0.5]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = pixels, requires = "oracle")]
+    tolerance: Option<f32>,
+}
+
+impl OracleArguments {
+    fn tolerance(&self) -> f32 {
+        self.tolerance.unwrap_or(FrameOptions::default().tolerance)
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
