@@ -28,10 +28,11 @@ static uint2 corners_of(uint side) {
 
 // Where step `index` of `steps` ends in a piece 2^bits long; the same places from either end.
 static uint place(uint index, uint steps, uint bits) {
+    const uint fine = lesser_of(bits, PLACE_BITS), rest = bits - fine;
     if (2u * index <= steps) {
-        return (index << bits) / steps;
+        return ((index << fine) / steps) << rest;
     }
-    return (1u << bits) - ((steps - index) << bits) / steps;
+    return (1u << bits) - ((((steps - index) << fine) / steps) << rest);
 }
 
 // A corner that has strayed, packed.

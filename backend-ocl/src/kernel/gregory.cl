@@ -149,8 +149,8 @@ static float3 blend_here(__constant Frame *frame, uint m, float u, float v) {
     return frame->flags & FLAG_WEBER ? weber_blend_at(frame->zero, m, u, v) : blend_at(frame->zero, m, u, v);
 }
 
-// A point of a patch by itself, as `position_at` and `evaluate_gregory` in core find it. The inner points of a Gregory
-// patch are put into its net, which is then of no more use but for other points.
+// A point of a patch by itself, as `position_at` and `evaluate_gregory` in core find it; not of a rational one. The inner
+// points of a Gregory patch are put into its net, which is then of no more use but for other points.
 static float3 point_at(__constant Frame *frame, Net *net, const Faces *faces, bool is_gregory, uint u, uint v) {
     const uint zero = frame->zero;
     if (is_gregory) {
@@ -158,12 +158,5 @@ static float3 point_at(__constant Frame *frame, Net *net, const Faces *faces, bo
             put_inner(zero, faces, net, m, blend_here(frame, m, param(zero, u), param(zero, v)).x);
         }
     }
-    const float4 row = cubic(zero, param(zero, v)), weights = cubic(zero, param(zero, u));
-    float4 x, y, z;
-    for (uint i = 0u; i < 4u; i++) {
-        x[i] = blend4(zero, row, vload4(i, net->x));
-        y[i] = blend4(zero, row, vload4(i, net->y));
-        z[i] = blend4(zero, row, vload4(i, net->z));
-    }
-    return (float3)(blend4(zero, weights, x), blend4(zero, weights, y), blend4(zero, weights, z));
+    return position_at(zero, net, (uint2)(u, v));
 }
