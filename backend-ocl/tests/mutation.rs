@@ -13,7 +13,7 @@ const MUTANTS_A_FILE: usize = 2;
 /// Mutants that nothing can notice.
 const ALLOWED: &[Allowed] = &[
     Allowed {
-        file: "sides.cl",
+        file: "measure.cl",
         line: "return sqrt(add(add(add(mul(dx, dx), mul(dy, dy)), mul(dz, dz)), LENGTH_TINY));",
         operator: "add(",
         why: "a length is less than a millionth of a pixel either way",
@@ -188,13 +188,18 @@ fn stages(file: &str) -> Vec<Stage> {
         }
         "take.cl" => vec![Stage::Take, Stage::Bound, Stage::Local],
         "scan.cl" => vec![Stage::Scan, Stage::Local, Stage::MeshPlaces],
-        "bezier.cl" | "net.cl" | "gregory.cl" => vec![Stage::Bound, Stage::Draw, Stage::Mesh],
+        "bezier.cl" | "net.cl" | "gregory.cl" | "rational.cl" | "half.cl" | "instance.cl" => {
+            vec![Stage::Bound, Stage::Draw, Stage::Mesh]
+        }
+        "owner.cl" => vec![Stage::Bound, Stage::Draw, Stage::Mesh],
         "project.cl" => vec![Stage::Bound, Stage::Draw],
-        "owner.cl" | "dice.cl" | "dice_gregory.cl" | "displace.cl" => vec![Stage::Draw, Stage::Mesh],
+        "dice.cl" | "dice_gregory.cl" | "dice_rational.cl" | "dice_any.cl" | "displace.cl" => {
+            vec![Stage::Draw, Stage::Mesh]
+        }
         "blend.cl" => vec![Stage::Blend, Stage::Draw],
         "sample.cl" => vec![Stage::Draw, Stage::SortLast, Stage::Filter, Stage::Mesh],
         "general.cl" | "grids.cl" => vec![Stage::Draw, Stage::SortLast],
-        "weber.cl" | "sides.cl" => vec![Stage::Bound],
+        "weber.cl" | "measure.cl" | "flat.cl" | "sides.cl" => vec![Stage::Bound],
         _ => {
             let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));
             vec![own.unwrap_or(Stage::Draw)]

@@ -140,9 +140,10 @@ static void put_flatness(View view, const Net *part, Lengths *lengths) {
     put_sides(sides, lengths);
 }
 
-// With what a surface encloses beyond itself: vertices may be anywhere in that.
+// With what is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it.
 static void with_more(View view, Hull *hull, Surface surface, Lengths *lengths) {
     const uint zero = view.frame->zero;
+    float sides[4];
     if (keeps_its_corners(surface)) {
         return;
     }
@@ -151,12 +152,13 @@ static void with_more(View view, Hull *hull, Surface surface, Lengths *lengths) 
         centre_inner(zero, &hull->faces, &hull->whole, surface, (view.frame->flags & FLAG_WEBER) != 0u);
     }
     Net more;
-    Lengths beyond;
+    Lengths whole;
     put_range(zero, hull, enclosed(surface), &more);
-    put_flatness(view, &more, &beyond);
-    const float most = mul(2.0f, beyond.u);
-    lengths->u = max(lengths->u, most);
-    lengths->v = max(lengths->v, most);
+    put_flatness(view, &more, &whole);
+    copy_sides(lengths, sides);
+    lengths->u = mul(2.0f, whole.u);
+    lengths->v = lengths->u;
+    put_sides(sides, lengths);
 }
 
 // How far a surface and its sides are from being flat; `Hull::flatness` in core.
@@ -436,6 +438,7 @@ static Verdict bound_weber(__constant Frame *frame, Hull *hull, Surface surface)
     const Side sides[4] = {live, live, live, live};
     PixelBox pixels = (PixelBox)(0);
     if (code == DRAW) {
+        // As it was before his points were looked at.
         in_eye_space(frame->zero, hull->patch, hull->object, &hull->whole);
         put_part(frame, surface, hull);
         pixels = pixels_of(frame, hull);

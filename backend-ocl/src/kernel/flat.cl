@@ -95,13 +95,11 @@ static float chord_flatness(View view, const float3 *points) {
     return mul(LINE_SHARE, add(most, mul(most, QUARTER)));
 }
 
-// What of a surface has to be flat: all that its vertices enclose, those too that have strayed from it.
+// What of a patch has to be flat for a surface whose corners have strayed: all that they enclose.
 static uint4 enclosed(Surface surface) {
-    uint4 range = range_of(surface);
-    for (uint number = 0u; number < 4u; number++) {
-        const uint2 at = corner(surface, number);
-        range.x = lesser_of(range.x, at.x);
-        range.z = lesser_of(range.z, at.y);
-    }
-    return range;
+    const uint2 a = corner(surface, 0u), b = corner(surface, 1u), c = corner(surface, 2u), d = corner(surface, 3u);
+    return (uint4)(lesser_of(lesser_of(a.x, b.x), lesser_of(c.x, d.x)),
+                   greater_of(greater_of(a.x, b.x), greater_of(c.x, d.x)),
+                   lesser_of(lesser_of(a.y, b.y), lesser_of(c.y, d.y)),
+                   greater_of(greater_of(a.y, b.y), greater_of(c.y, d.y)));
 }
