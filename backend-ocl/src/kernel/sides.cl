@@ -147,6 +147,9 @@ static float halved_extent(__constant Frame *frame, const Hull *hull, Surface su
 // Lengths of the sides of a surface, those replaced that are halves of other patches' sides.
 static void with_half_lines(__constant Frame *frame, const Hull *hull, Surface surface, Lengths *lengths) {
     float sides[4];
+    if (!has_halves(hull->patch)) {
+        return;
+    }
     for (uint side = 0u; side < 4u; side++) {
         const bool is_there = is_half(hull->patch, side) && is_outer(surface, side);
         sides[side] = is_there ? halved_extent(frame, hull, surface, side) : lengths->sides[side];
