@@ -66,11 +66,15 @@ static bool has_strayed(Surface surface, uint number) {
     return surface.borders[number] >> CORNER_SHIFT != 0u;
 }
 
+// u and v of a corner, if it has not strayed.
+static uint2 seeming_corner(Surface surface, uint number) {
+    return (uint2)(number % 2u == 0u ? surface.u : surface.u + u_size(surface),
+                   number < 2u ? surface.v : surface.v + v_size(surface));
+}
+
 // u and v of the vertex at a corner.
 static uint2 corner(Surface surface, uint number) {
-    const uint u = number % 2u == 0u ? surface.u : surface.u + u_size(surface);
-    const uint v = number < 2u ? surface.v : surface.v + v_size(surface);
-    return astray(surface.borders[number] >> CORNER_SHIFT, (uint2)(u, v));
+    return astray(surface.borders[number] >> CORNER_SHIFT, seeming_corner(surface, number));
 }
 
 // Where a side begins along its line, and the log2 of its length.

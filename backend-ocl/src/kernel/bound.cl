@@ -71,12 +71,13 @@ static void put_range(uint zero, const Hull *hull, uint4 range, Net *part) {
 static void put_part(__constant Frame *frame, Surface surface, Hull *hull) {
     const uint zero = frame->zero;
     const bool exchanged = (frame->flags & FLAG_WEBER) != 0u;
-    hull->apart = hull->is_gregory ? centre_inner(zero, &hull->faces, &hull->whole, surface, exchanged) : 0.0f;
+    const uint4 range = range_of(surface);
+    hull->apart = hull->is_gregory ? centre_inner(zero, &hull->faces, &hull->whole, range, exchanged) : 0.0f;
     hull->spread = add(hull->apart, hull->reach);
-    put_range(zero, hull, range_of(surface), &hull->part);
+    put_range(zero, hull, range, &hull->part);
     if (hull->is_gregory) {
         copy_net(&hull->part, &hull->follower);
-        follow(zero, &hull->faces, &hull->follower, surface, exchanged);
+        follow(zero, &hull->faces, &hull->follower, range, exchanged);
     }
 }
 
@@ -133,48 +134,92 @@ static void polygon_lengths(uint zero, const Net *points, Lengths *lengths) {
     put_lengths(along_u, along_v, lengths);
 }
 
-static void put_flatness(View view, const Net *part, Lengths *lengths) {
+// How many times as flat as a surface one of its sides has to be: the same for whoever has it.
+static float strictness(uint zero, const Hull *hull, Surface surface, uint side) {
+    const uint bits = extent_of(surface, side).y;
+    return strictness_of(zero, is_half_line(hull->patch, surface, side) ? bits - 1u : bits);
+}
+
+// Control points of a part of the patch, or of a Bézier patch that is nearly the same there; `Hull::between` in core.
+static void put_between(uint zero, Hull *hull, uint4 range, Net *part) {
+    if (!hull->is_gregory) {
+        put_range(zero, hull, range, part);
+        return;
+    }
+    centre_inner(zero, &hull->faces, &hull->whole, range, false);
+    put_range(zero, hull, range, part);
+    follow(zero, &hull->faces, part, range, false);
+}
+
+// How far what is drawn in a range is from triangles.
+static float off_in(__constant Frame *frame, Hull *hull, uint4 range) {
+    Net part;
+    put_between(frame->zero, hull, range, &part);
+    return part_flatness(frame, hull->near, &part);
+}
+
+// How far the sides of a surface of a Gregory patch are from their chords, each by itself.
+static void lines_of_gregory(__constant Frame *frame, Hull *hull, Surface surface, float *sides) {
+    for (uint side = 0u; side < 4u; side++) {
+        const uint2 ends = corners_of(side);
+        const uint2 first = seeming_corner(surface, ends.x), last = seeming_corner(surface, ends.y);
+        Net part;
+        put_between(frame->zero, hull, around(first, last, last), &part);
+        sides[side] = side_flatness(frame, hull->near, &part, side);
+    }
+}
+
+// How far a live side that begins or ends with a corner that has strayed is from being flat, at least.
+static float side_astray(__constant Frame *frame, Hull *hull, Surface surface, uint side) {
+    const uint zero = frame->zero;
+    const uint2 ends = corners_of(side);
+    if (side_of(surface, side).steps != 0u || !(has_strayed(surface, ends.x) || has_strayed(surface, ends.y))) {
+        return 0.0f;
+    }
+    const uint2 from = corner(surface, ends.x), to = corner(surface, ends.y);
+    return mul(strictness(zero, hull, surface, side), off_in(frame, hull, around(from, to, to)));
+}
+
+// With what is enclosed by corners that have strayed, in place of the surface itself, and of such sides.
+static void with_astray(__constant Frame *frame, Hull *hull, Surface surface, Lengths *lengths) {
+    const uint zero = frame->zero;
+    const uint2 a = corner(surface, 0u), b = corner(surface, 1u), d = corner(surface, 2u), c = corner(surface, 3u);
     float sides[4];
-    lengths->u = flatness(view, part, sides);
+    for (uint side = 0u; side < 4u; side++) {
+        sides[side] = max(lengths->sides[side], side_astray(frame, hull, surface, side));
+    }
+    lengths->u = max(off_in(frame, hull, around(a, b, c)), off_in(frame, hull, around(a, c, d)));
     lengths->v = lengths->u;
     put_sides(sides, lengths);
 }
 
-// With what is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it.
-static void with_more(View view, Hull *hull, Surface surface, Lengths *lengths) {
-    const uint zero = view.frame->zero;
-    float sides[4];
-    if (keeps_its_corners(surface)) {
-        return;
-    }
-    if (hull->is_gregory) {
-        // Points of the patch that were looked at since have put theirs into its net.
-        centre_inner(zero, &hull->faces, &hull->whole, surface, (view.frame->flags & FLAG_WEBER) != 0u);
-    }
-    Net more;
-    Lengths whole;
-    put_range(zero, hull, enclosed(surface), &more);
-    put_flatness(view, &more, &whole);
-    copy_sides(lengths, sides);
-    lengths->u = mul(2.0f, whole.u);
+static void put_flatness(__constant Frame *frame, float near, const Net *part, Lengths *lengths) {
+    lengths->u = part_flatness(frame, near, part);
     lengths->v = lengths->u;
-    put_sides(sides, lengths);
+    for (uint side = 0u; side < 4u; side++) {
+        lengths->sides[side] = side_flatness(frame, near, part, side);
+    }
 }
 
 // How far a surface and its sides are from being flat; `Hull::flatness` in core.
 static void flatness_of(__constant Frame *frame, Hull *hull, Surface surface, Lengths *lengths) {
-    const View view = {frame, hull->near, false};
-    put_flatness(view, &hull->part, lengths);
+    const uint zero = frame->zero;
+    float sides[4];
     if (hull->is_gregory) {
-        float sides[4];
-        copy_sides(lengths, sides);
-        sides_of_gregory(frame, hull, surface, sides);
-        put_flatness(view, &hull->follower, lengths);
-        put_sides(sides, lengths);
+        lengths->u = part_flatness(frame, hull->near, &hull->follower);
+        lengths->v = lengths->u;
+        lines_of_gregory(frame, hull, surface, lengths->sides);
     } else {
+        put_flatness(frame, hull->near, &hull->part, lengths);
         with_half_lines(frame, hull, surface, lengths);
     }
-    with_more(view, hull, surface, lengths);
+    for (uint side = 0u; side < 4u; side++) {
+        sides[side] = mul(strictness(zero, hull, surface, side), lengths->sides[side]);
+    }
+    put_sides(sides, lengths);
+    if (!keeps_its_corners(surface)) {
+        with_astray(frame, hull, surface, lengths);
+    }
 }
 
 // Lengths on screen of a hull whose control points are measured to be at `points`, which are then another's.
@@ -263,7 +308,7 @@ static uint refine(__constant Frame *frame, Surface surface, uint kind, float u,
 
 // What becomes of a surface that is so far from being flat: it is split into four, in two steps.
 static uint quartered(__constant Frame *frame, Surface surface, uint kind, float off) {
-    if (u_level(surface) > v_level(surface)) {
+    if (is_half_way(frame, surface)) {
         return SPLIT_V;
     }
     const bool is_whole = level(surface) == 0u && is_halved(kind, KIND_HALVED);
@@ -277,7 +322,7 @@ static uint quartered(__constant Frame *frame, Surface surface, uint kind, float
 // What becomes of a surface in view, of a patch of this kind, that is so long.
 static uint by_extents(__constant Frame *frame, Surface surface, uint kind, float2 extents) {
     if (frame->flags & FLAG_FLAT) {
-        return quartered(frame, surface, kind, extents.x);
+        return quartered(frame, surface, kind, max(extents.x, extents.y));
     }
     if (is_halved(kind, 3u) && u_level(surface) == 0u) {
         return may_split(frame, surface, 1u) ? SPLIT_U : DRAW_LIMITED;
@@ -325,28 +370,17 @@ static bool beside_the_view(__constant Frame *frame, const Net *part, float slac
         || beyond(frame, part->z, part->y, frame->centre_y, slack);
 }
 
-// Lengths of a surface as if all of it were at the near plane, and turned to the eye; `points` are another's then.
-static void lengths_if_cut(__constant Frame *frame, float near, const Net *part, Net *points, Lengths *lengths) {
+// Lengths along u and along v of a surface that crosses the near plane: as if all of it were there, and turned to the eye.
+static float2 extents_if_cut(__constant Frame *frame, float near, const Net *part, Net *points) {
+    const uint zero = frame->zero;
+    const float scale = mul(frame->focal, recip(near));
     for (uint l = 0u; l < 16u; l++) {
-        const float3 at = point_if_cut(frame, near, point_of(part, l));
-        points->x[l] = at.x;
-        points->y[l] = at.y;
-        points->z[l] = at.z;
+        points->x[l] = clamp(mul(part->x[l], scale), neg(FAR_OFF), FAR_OFF);
+        points->y[l] = clamp(mul(part->y[l], scale), neg(FAR_OFF), FAR_OFF);
+        points->z[l] = clamp(mul(part->z[l], scale), neg(FAR_OFF), FAR_OFF);
     }
-    polygon_lengths(frame->zero, points, lengths);
-}
-
-// Lengths along u and along v of a surface that crosses the near plane: as if all of it were there. Or how far it is from
-// being flat.
-static float2 extents_if_cut(__constant Frame *frame, Hull *hull, Surface surface, Net *points) {
     Lengths lengths;
-    if (frame->flags & FLAG_FLAT) {
-        const View view = {frame, hull->near, true};
-        put_flatness(view, &hull->part, &lengths);
-        with_more(view, hull, surface, &lengths);
-    } else {
-        lengths_if_cut(frame, hull->near, &hull->part, points, &lengths);
-    }
+    polygon_lengths(zero, points, &lengths);
     return (float2)(lengths.u, lengths.v);
 }
 
@@ -390,8 +424,9 @@ static Verdict judge_seen(__constant Frame *frame, Hull *hull, Surface surface, 
     if (!strays.are_some) {
         pixels = pixels_if_cut(frame, hull, farthest);
     }
-    const bool is_cut = nearest_smooth(zero, hull) < hull->near;
-    const float2 extents = is_cut ? extents_if_cut(frame, hull, surface, &points) : (float2)(lengths.u, lengths.v);
+    const bool is_cut = nearest_smooth(zero, hull) < hull->near && (frame->flags & FLAG_FLAT) == 0u;
+    const float2 extents =
+        is_cut ? extents_if_cut(frame, hull->near, &hull->part, &points) : (float2)(lengths.u, lengths.v);
     const uint kind = hull->patch->kind, code = by_extents(frame, surface, kind, extents);
     return with_sides(frame, surface, kind, &lengths, new_verdict(code, pixels));
 }

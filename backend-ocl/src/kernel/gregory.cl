@@ -43,12 +43,12 @@ static void put_inner(uint zero, const Faces *faces, Net *net, uint m, float sha
     net->z[inner(m)] = add(faces->z[4u + m], moved.z);
 }
 
-// Distances of the low and high end of a range, start and size, from the end 0 or 1 of its parameter.
+// Distances of the low and high end of a range from the end 0 or 1 of its parameter.
 static float2 ends(uint zero, uint2 range, uint end) {
     if (end == 0u) {
-        return (float2)(param(zero, range.x), param(zero, range.x + range.y));
+        return (float2)(param(zero, range.x), param(zero, range.y));
     }
-    return (float2)(param(zero, PARAM_ONE - range.x), param(zero, PARAM_ONE - range.x - range.y));
+    return (float2)(param(zero, PARAM_ONE - range.x), param(zero, PARAM_ONE - range.y));
 }
 
 // The smaller of the two first.
@@ -72,10 +72,10 @@ static float middle(uint zero, float2 a, float2 b) {
     return mul(0.5f, add(share_at(zero, a.y, b.x), share_at(zero, a.x, b.y)));
 }
 
-// The middles of all shares on a surface into the net of the whole patch; gives how far the surface can be
-// from that net's.
-static float centre_inner(uint zero, const Faces *faces, Net *net, Surface surface, bool exchanged) {
-    const uint2 along_u = (uint2)(surface.u, u_size(surface)), along_v = (uint2)(surface.v, v_size(surface));
+// The middles of all shares on a surface, given by its range, into the net of the whole patch; gives how far the surface
+// can be from that net's.
+static float centre_inner(uint zero, const Faces *faces, Net *net, uint4 range, bool exchanged) {
+    const uint2 along_u = range.xy, along_v = range.zw;
     const uint2 first = exchanged ? along_v : along_u, second = exchanged ? along_u : along_v;
     float spread = 0.0f;
     for (uint m = 0u; m < 4u; m++) {
@@ -100,12 +100,12 @@ static float component(float4 all, uint k) {
 }
 
 // Moves the control points of a surface to where the shares at its corners, and between them, take them.
-static void follow(uint zero, const Faces *faces, Net *part, Surface surface, bool exchanged) {
-    const uint2 along_u = (uint2)(surface.u, u_size(surface)), along_v = (uint2)(surface.v, v_size(surface));
+static void follow(uint zero, const Faces *faces, Net *part, uint4 range, bool exchanged) {
+    const uint2 along_u = range.xy, along_v = range.zw;
     const uint2 first = exchanged ? along_v : along_u, second = exchanged ? along_u : along_v;
     float4 weights_u[4], weights_v[4];
-    blossom(zero, surface.u, surface.u + u_size(surface), weights_u);
-    blossom(zero, surface.v, surface.v + v_size(surface), weights_v);
+    blossom(zero, range.x, range.y, weights_u);
+    blossom(zero, range.z, range.w, weights_v);
     for (uint m = 0u; m < 4u; m++) {
         const float2 a = ends(zero, first, m / 2u), b = ends(zero, second, m % 2u);
         const float3 from = difference(zero, faces, m);

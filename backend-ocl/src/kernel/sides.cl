@@ -1,5 +1,5 @@
 // Mirrors core/src/kernel/sides.rs: how the four sides of a surface are divided, and how finely its grid is diced.
-// Also the control hull, which core has in core/src/kernel/bound.rs.
+// Also where points are for measuring lengths, and the control hull, which core has in core/src/kernel/bound.rs.
 
 // Control hull of a surface, and of the whole patch; what rounding can do, what displacement can do, how far the surface
 // can be from the one whose hull it is, and the sum of both. Of a Gregory patch also another net, whose lengths are the
@@ -44,6 +44,28 @@ typedef struct {
     float farthest;
 } Strays;
 
+static float2 point_on_screen(__constant Frame *frame, float near, float3 point) {
+    const float3 seen = perspective(frame, near, point);
+    return (float2)(clamp(seen.x, neg(FAR_OFF), FAR_OFF), clamp(seen.y, neg(FAR_OFF), FAR_OFF));
+}
+
+// Where a point is for measuring lengths: on screen; or on a sheet of pixels that surrounds the eye.
+static float3 measured_point(__constant Frame *frame, float near, float3 point) {
+    const uint zero = frame->zero;
+    if ((frame->flags & FLAG_WHOLE) == 0u) {
+        const float2 seen = point_on_screen(frame, near, point);
+        return (float3)(seen.x, seen.y, 0.0f);
+    }
+    const float before = max(neg(point.z), mul(largest3(point), frame->around));
+    return scale3(point, mul(frame->focal, recip(max(before, near))));
+}
+
+// `distance` in core, which is a function of OpenCL's that may not be called here.
+static float distance_of(uint zero, float3 a, float3 b) {
+    const float dx = sub(b.x, a.x), dy = sub(b.y, a.y), dz = sub(b.z, a.z);
+    return sqrt(add(add(add(mul(dx, dx), mul(dy, dy)), mul(dz, dz)), LENGTH_TINY));
+}
+
 static float longest(const float *all) {
     return max(max(all[0], all[1]), max(all[2], all[3]));
 }
@@ -85,6 +107,11 @@ static uint steps_of(__constant Frame *frame, float length) {
     return (uint)(-floor(neg(steps)));
 }
 
+// Has a surface that is split into four been split once?
+static bool is_half_way(__constant Frame *frame, Surface surface) {
+    return (frame->flags & FLAG_FLAT) != 0u && u_level(surface) > v_level(surface);
+}
+
 // Is a side all of one side of its patch, with two patches on the other side of it?
 static bool is_to_be_halved(Surface surface, uint kind, uint side) {
     return (kind & KIND_HALVED & 1u << side) != 0u && extent_of(surface, side).y == PARAM_BITS
@@ -92,13 +119,13 @@ static bool is_to_be_halved(Surface surface, uint kind, uint side) {
 }
 
 // How the sides of a surface of a patch of this kind are divided: as they were, unless they are live and short enough; or
-// long, but may not be halved any more.
+// long, but may not be halved any more. Half way through a split into four nothing is decided.
 static void divide(__constant Frame *frame, Surface surface, uint kind, const Lengths *lengths, uint code, Side *sides) {
     for (uint number = 0u; number < 4u; number++) {
         const float length = lengths->sides[number];
         Side side = side_of(surface, number);
         const bool is_short = length <= frame->bound && !is_to_be_halved(surface, kind, number);
-        const bool is_last = is_short || code == DRAW_LIMITED;
+        const bool is_last = (is_short && !is_half_way(frame, surface)) || code == DRAW_LIMITED;
         if (side.steps == 0u && is_last && (frame->flags & FLAG_NAIVE) == 0u) {
             side.steps = steps_of(frame, length);
             side.bits = extent_of(surface, number).y;
@@ -125,8 +152,7 @@ static uint2 rates(__constant Frame *frame, Surface surface, const Lengths *leng
 static float line_extent(__constant Frame *frame, float near, float3 *line) {
     const uint zero = frame->zero;
     if (frame->flags & FLAG_FLAT) {
-        const View view = {frame, near, false};
-        return line_flatness(view, line);
+        return line_flatness(frame, near, line);
     }
     for (uint k = 0u; k < 4u; k++) {
         line[k] = measured_point(frame, near, line[k]);
@@ -144,6 +170,11 @@ static float halved_extent(__constant Frame *frame, const Hull *hull, Surface su
     return line_extent(frame, hull->near, line);
 }
 
+// Is a side of a surface half of another patch's side, or a piece of it?
+static bool is_half_line(__global const Patch *patch, Surface surface, uint side) {
+    return is_half(patch, side) && is_outer(surface, side);
+}
+
 // Lengths of the sides of a surface, those replaced that are halves of other patches' sides.
 static void with_half_lines(__constant Frame *frame, const Hull *hull, Surface surface, Lengths *lengths) {
     float sides[4];
@@ -151,35 +182,24 @@ static void with_half_lines(__constant Frame *frame, const Hull *hull, Surface s
         return;
     }
     for (uint side = 0u; side < 4u; side++) {
-        const bool is_there = is_half(hull->patch, side) && is_outer(surface, side);
+        const bool is_there = is_half_line(hull->patch, surface, side);
         sides[side] = is_there ? halved_extent(frame, hull, surface, side) : lengths->sides[side];
     }
     put_sides(sides, lengths);
 }
 
-// Length on screen of four chords, or how far the points are from one.
-static float chords_extent(__constant Frame *frame, float near, float3 *points) {
-    const uint zero = frame->zero;
-    if (frame->flags & FLAG_FLAT) {
-        const View view = {frame, near, false};
-        return chord_flatness(view, points);
-    }
-    for (uint k = 0u; k < 5u; k++) {
-        points[k] = measured_point(frame, near, points[k]);
-    }
-    const float outer = add(distance_of(zero, points[0], points[1]), distance_of(zero, points[3], points[4]));
-    return add(outer, add(distance_of(zero, points[1], points[2]), distance_of(zero, points[2], points[3])));
-}
-
-// Length of a side inside a Gregory patch: chords between five of its points.
+// Length of a side inside a Gregory patch: four chords between its points.
 static float side_inside(__constant Frame *frame, Hull *hull, Surface surface, uint side) {
+    const uint zero = frame->zero;
     const uint quarter = (side < 2u ? u_size(surface) : v_size(surface)) / 4u;
-    float3 points[5];
+    float3 seen[5];
     for (uint k = 0u; k < 5u; k++) {
         const uint2 at = on_side(surface, side, extent_of(surface, side).x + k * quarter);
-        points[k] = point_at(frame, &hull->whole, &hull->faces, true, at.x, at.y);
+        const float3 point = point_at(frame, &hull->whole, &hull->faces, true, at.x, at.y);
+        seen[k] = measured_point(frame, hull->near, point);
     }
-    return chords_extent(frame, hull->near, points);
+    const float outer = add(distance_of(zero, seen[0], seen[1]), distance_of(zero, seen[3], seen[4]));
+    return add(outer, add(distance_of(zero, seen[1], seen[2]), distance_of(zero, seen[2], seen[3])));
 }
 
 // Lengths of the sides of a surface of a Gregory patch: those on the patch's edge are as they were in `sides`.
