@@ -98,8 +98,10 @@ pub struct DeviceScene {
     pub frame: Frame,
     /// Transforms and materials.
     pub objects: Vec<Object>,
-    /// All patches, object by object, and behind them the face points of Gregory patches, a record each.
+    /// Records of all patches, shape by shape, and behind them what some kinds of patches need besides.
     pub patches: Vec<Patch>,
+    /// Number of patches: more than there are records of them where objects have the same ones.
+    pub patch_count: usize,
 }
 
 impl SceneObject {
@@ -368,7 +370,8 @@ impl Scene {
     /// As [`Scene::for_device`], with another camera.
     pub(crate) fn seen_from(&self, camera: &Camera, options: &FrameOptions) -> Result<DeviceScene> {
         let (frame, objects) = self.view(camera, 0.0, options)?;
-        Ok(DeviceScene { frame, objects, patches: self.device_patches() })
+        let (patches, patch_count) = (self.device_patches(), self.patch_count());
+        Ok(DeviceScene { frame, objects, patches, patch_count })
     }
 
     /// What of a scene depends on the camera and on time, in frames, as devices read it.
