@@ -21,10 +21,19 @@
 #define PARALLEL 5.9604645e-8f
 #define INNER_MOST 4.4444445e-1f
 #define THIRD 3.3333334e-1f
+#define PLACE_BITS 8u
+#define JOINED_SPLITS 15u
+#define QUARTER 2.5e-1f
+#define LINE_SHARE 2.5e0f
 #define SHADE_TINY 1e-30f
-#define OWNER_SHIFT 4u
+#define OWNER_SHIFT 6u
+#define OWNER_IS_HALF 16u
+#define OWNER_IS_SECOND 32u
 #define OWNER_IS_CORNER 8u
 #define OWNER_IS_REVERSED 1u
+#define KIND_HALVED 15u
+#define KIND_HALF_SHIFT 4u
+#define KIND_RATIONAL 256u
 #define MAX_OCTAVES 8u
 #define LATTICE_END 4.194304e6f
 #define LATTICE_NEAR 9.536743e-7f
@@ -52,6 +61,8 @@
 #define FLAG_SMOOTH 32u
 #define FLAG_LAYERS 64u
 #define FLAG_SORT_LAST 128u
+#define FLAG_FLAT 256u
+#define FLAG_INSTANCES 512u
 #define MAX_PATTERN_BITS 3u
 #define MAX_SAMPLES 64u
 #define OPAQUE_DEPTH 1u
@@ -67,6 +78,7 @@ typedef struct {
     float z[16];
     uint object;
     uint faces;
+    uint kind;
     uint owners[8];
 } Patch;
 
@@ -80,6 +92,8 @@ typedef struct {
     float frequency;
     uint octaves;
     float opacity;
+    uint first_patch;
+    uint first_record;
     float normal_to_eye[9];
 } Object;
 
@@ -124,6 +138,7 @@ typedef struct {
     uint shown_top;
     uint shown_bottom;
     uint taps;
+    uint object_count;
 } Frame;
 
 typedef struct {

@@ -52,8 +52,9 @@ fn last_corner(side: u32) -> u32 {
 
 // Where step `index` of `steps` ends in a piece 2^bits long: the same places if counted from the other end.
 fn place(index: u32, steps: u32, bits: u32) -> u32 {
+    let fine = select(PLACE_BITS, bits, bits < PLACE_BITS);
     let is_low = 2u * index <= steps;
-    let from_end = (select(steps - index, index, is_low) << bits) / steps;
+    let from_end = ((select(steps - index, index, is_low) << fine) / steps) << (bits - fine);
     return select((1u << bits) - from_end, from_end, is_low);
 }
 

@@ -66,7 +66,8 @@ fn pixel_range(reach: Reach, centre: f32, whole: vec2<u32>, margin: f32) -> vec2
 }
 
 fn bound(surface: Surface) -> Verdict {
-    return judge(surface, hull_of_bezier(in_eye_space(surface.patch_id), surface));
+    let whole = in_eye_space(surface.patch_id, object_of(surface.patch_id));
+    return judge(surface, hull_of_bezier(whole, surface));
 }
 
 fn judge(surface: Surface, hull: Hull) -> Verdict {
@@ -85,7 +86,7 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
     var pixels = whole_window();
     if crosses && !is_whole() {
         if nearest_smooth(hull) < measured_from() {
-            extents = extents_if_cut(hull.part);
+            extents = extents_if_cut(hull);
         }
         if !strays.exist {
             pixels = pixels_if_cut(hull, farthest);
@@ -141,17 +142,23 @@ fn divided_verdict(surface: Surface, lengths: Lengths, found: Verdict) -> Verdic
     return with_sides(found, sides, rates_for(divided(surface, plain), lengths));
 }
 
-fn by_extents(surface: Surface, extents: vec2<f32>) -> u32 {
+// What becomes of a surface in view that is so long, if nothing forces it to be split.
+fn by_size(surface: Surface, extents: vec2<f32>) -> u32 {
     if max(extents.x, extents.y) <= frame.bound {
         return DRAW;
     }
     return refine(surface, extents);
 }
 
+// Is there a level for each of so many splits?
+fn may_split(surface: Surface, times: u32) -> bool {
+    return level(surface) + times < frame.levels;
+}
+
 fn refine(surface: Surface, extents: vec2<f32>) -> u32 {
-    let open_u = u_level(surface) < MAX_SPLITS;
-    let open_v = v_level(surface) < MAX_SPLITS;
-    if level(surface) + 1u >= frame.levels {
+    let open_u = u_level(surface) < most_splits();
+    let open_v = v_level(surface) < most_splits();
+    if !may_split(surface, 1u) {
         return DRAW_LIMITED;
     }
     if extents.x > extents.y {
@@ -191,17 +198,26 @@ fn beyond(depths: array<f32, 16>, coordinates: array<f32, 16>, half: f32, slack:
     return add(fold_max(low), tolerance) < 0.0 || add(fold_max(high), tolerance) < 0.0;
 }
 
-// Lengths along u and along v of a surface that crosses the near plane: as if all of it were there, and turned to the
-// eye.
-fn extents_if_cut(part: Net) -> vec2<f32> {
-    let scale = mul(frame.focal, recip(measured_from()));
+// Lengths along u and along v of a surface as if all of it were at the near plane, and turned to the eye.
+fn lengths_if_cut(part: Net) -> vec2<f32> {
     var points = part;
     for (var l = 0u; l < 16u; l++) {
-        points.x[l] = clamp(mul(points.x[l], scale), neg(FAR_OFF), FAR_OFF);
-        points.y[l] = clamp(mul(points.y[l], scale), neg(FAR_OFF), FAR_OFF);
-        points.z[l] = clamp(mul(points.z[l], scale), neg(FAR_OFF), FAR_OFF);
+        let point = point_if_cut(vec3<f32>(points.x[l], points.y[l], points.z[l]));
+        points.x[l] = point.x;
+        points.y[l] = point.y;
+        points.z[l] = point.z;
     }
     return vec2<f32>(longest(polygons_u(points)), longest(polygons_v(points)));
+}
+
+// Where a point is for that.
+fn point_if_cut(point: vec3<f32>) -> vec3<f32> {
+    let scale = mul(frame.focal, recip(measured_from()));
+    return vec3<f32>(
+        clamp(mul(point.x, scale), neg(FAR_OFF), FAR_OFF),
+        clamp(mul(point.y, scale), neg(FAR_OFF), FAR_OFF),
+        clamp(mul(point.z, scale), neg(FAR_OFF), FAR_OFF),
+    );
 }
 
 // The pixels that drawing a surface can touch of which parts lie as near as the near plane.

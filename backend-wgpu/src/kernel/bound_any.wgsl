@@ -1,14 +1,29 @@
-// Mirrors core/src/kernel/bound.rs: what of it concerns Gregory patches, displacement, the rules of Weber's program,
-// and meshes that are to be whole.
+// Mirrors core/src/kernel/bound.rs: what of it concerns Gregory patches, rational ones, sides that are halves of others',
+// instances, displacement, the rules of Weber's program, surfaces that are to be flat, and meshes that are to be whole.
 
+// The surface's patch, what it is besides, and its object.
+var<private> RECORD: u32;
+var<private> KIND: u32;
+var<private> OBJECT: u32;
 // Control points of a surface that is even nearer than the one whose hull is known, if the patch is a Gregory
 // patch: its lengths are the surface's.
 var<private> FOLLOWER: Net;
 // The patch's face points.
 var<private> FACES: Faces;
 var<private> IS_GREGORY: bool;
+// The patch's weights.
+var<private> WEIGHTS: Weights;
+var<private> IS_RATIONAL: bool;
+// Control points of all that the surface's vertices enclose, if that is more than the surface: only where it is to be
+// flat.
+var<private> MORE: Net;
+var<private> HAS_MORE: bool;
 // What displacement can do, along any axis of eye space.
 var<private> REACH: f32;
+
+fn is_flat() -> bool {
+    return (frame.flags & FLAG_FLAT) != 0u;
+}
 
 fn is_whole() -> bool {
     return (frame.flags & FLAG_WHOLE) != 0u;
@@ -28,7 +43,21 @@ fn position_any(hull: Hull, u: u32, v: u32) -> vec3<f32> {
     if IS_GREGORY {
         return gregory_position(hull.whole, u, v);
     }
+    if IS_RATIONAL {
+        return rational_position(WEIGHTS, hull.whole, u, v);
+    }
+    let at = vec2<u32>(u, v);
+    let side = joined_side(KIND, at);
+    if side < 4u {
+        return joined_position(owner_word(RECORD, side), side, at);
+    }
     return position_at(hull.whole, u, v);
+}
+
+// On a larger patch, given the word of the side that is half of a side of it.
+fn joined_position(word: u32, side: u32, at: vec2<u32>) -> vec3<f32> {
+    let there = joined_place(word, side, at);
+    return position_at(in_eye_space((word >> OWNER_SHIFT) - 1u, OBJECT), there.x, there.y);
 }
 
 // Mirrors core/src/kernel/dice_gregory.rs (evaluate_gregory): the point alone.
@@ -48,16 +77,110 @@ fn measured_point(point: vec3<f32>) -> vec3<f32> {
 
 // Lengths on screen of a hull whose control points are measured to be at `points`.
 fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
+    if is_flat() {
+        return flatness_of(surface, hull);
+    }
     let own = lengths_of_polygons(polygons_u(points), polygons_v(points));
     if !IS_GREGORY {
-        return own;
+        return with_half_lines(surface, own);
     }
     let sides = sides_of_gregory(hull.whole, surface, own.sides);
     let followed = measured(FOLLOWER);
-    let u = longest(polygons_u(followed));
-    let v = longest(polygons_v(followed));
-    // A surface is no shorter than its sides.
-    return Lengths(max(u, max(sides.x, sides.y)), max(v, max(sides.z, sides.w)), sides);
+    return with_own_sides(lengths_of_polygons(polygons_u(followed), polygons_v(followed)), sides);
+}
+
+// How far a surface and its sides are from being flat.
+fn flatness_of(surface: Surface, hull: Hull) -> Lengths {
+    let own = flatness(false, hull.part);
+    if !IS_GREGORY {
+        return with_more(false, with_half_lines(surface, own));
+    }
+    let sides = sides_of_gregory(hull.whole, surface, own.sides);
+    return with_more(false, with_own_sides(flatness(false, FOLLOWER), sides));
+}
+
+// With what is enclosed by corners that have strayed, in place of the surface itself.
+fn with_more(is_cut: bool, own: Lengths) -> Lengths {
+    if !HAS_MORE {
+        return own;
+    }
+    let most = mul(2.0, flatness(is_cut, MORE).u);
+    return with_own_sides(Lengths(most, most, own.sides), own.sides);
+}
+
+// Of a surface that crosses the near plane.
+fn extents_if_cut(hull: Hull) -> vec2<f32> {
+    if is_flat() {
+        let own = with_more(true, flatness(true, hull.part));
+        return vec2<f32>(own.u, own.v);
+    }
+    return lengths_if_cut(hull.part);
+}
+
+// What becomes of a surface in view that is so long.
+fn by_extents(surface: Surface, extents: vec2<f32>) -> u32 {
+    if is_flat() {
+        return quartered(surface, extents.x);
+    }
+    let is_forced_u = is_halved(3u) && u_level(surface) == 0u;
+    if is_forced_u || (is_halved(12u) && v_level(surface) == 0u) {
+        return select(DRAW_LIMITED, select(SPLIT_V, SPLIT_U, is_forced_u), may_split(surface, 1u));
+    }
+    return by_size(surface, extents);
+}
+
+// Does the patch have two others beside one of these sides, a bit a side?
+fn is_halved(sides: u32) -> bool {
+    return (KIND & KIND_HALVED & sides) != 0u;
+}
+
+// Most halvings along either parameter.
+fn most_splits() -> u32 {
+    let is_joined = (KIND & (KIND_HALVED | (KIND_HALVED << KIND_HALF_SHIFT))) != 0u;
+    return select(MAX_SPLITS, JOINED_SPLITS, is_joined);
+}
+
+// What becomes of a surface that is so far from being flat: it is split into four, in two steps.
+fn quartered(surface: Surface, off: f32) -> u32 {
+    if u_level(surface) > v_level(surface) {
+        return SPLIT_V;
+    }
+    let is_whole_and_halved = level(surface) == 0u && is_halved(KIND_HALVED);
+    if off <= frame.bound && !is_whole_and_halved {
+        return DRAW;
+    }
+    return select(DRAW_LIMITED, SPLIT_U, u_level(surface) < most_splits() && may_split(surface, 2u));
+}
+
+// Mirrors core/src/kernel/sides.rs: is a side all of one side of its patch, with two patches on the other side of it?
+fn is_to_be_halved(surface: Surface, side: u32) -> bool {
+    return is_halved(1u << side) && extent_of(surface, side).bits == PARAM_BITS && is_outer(surface, side);
+}
+
+// Lengths of the sides of a surface, those replaced that are halves of other patches' sides.
+fn with_half_lines(surface: Surface, own: Lengths) -> Lengths {
+    var sides = own.sides;
+    for (var side = 0u; side < 4u; side++) {
+        if (KIND & (1u << (side + KIND_HALF_SHIFT))) != 0u && is_outer(surface, side) {
+            let extent = extent_of(surface, side);
+            let word = owner_word(RECORD, side);
+            sides[side] = line_extent(half_line(word, OBJECT, extent.start, extent.start + (1u << extent.bits)));
+        }
+    }
+    return with_own_sides(own, sides);
+}
+
+// Length of a line's control polygon on screen, or how far it is from its chord.
+fn line_extent(line: Line) -> f32 {
+    if is_flat() {
+        return line_flatness(line);
+    }
+    var seen = line.points;
+    for (var k = 0u; k < 4u; k++) {
+        seen[k] = measured_point(seen[k]);
+    }
+    return polygon(
+        distance_of(seen[0], seen[1]), distance_of(seen[1], seen[2]), distance_of(seen[2], seen[3]));
 }
 
 // Mirrors core/src/kernel/sides.rs: a side on the patch's edge is as long as that of a Bezier patch, a line inside the
@@ -79,17 +202,25 @@ fn sides_of_gregory(net: Net, surface: Surface, lengths: vec4<f32>) -> vec4<f32>
 
 fn line_inside(net: Net, surface: Surface, side: u32) -> f32 {
     let own = extent_of(surface, side);
-    var chords: vec4<f32>;
-    var from_point = vec3<f32>(0.0, 0.0, 0.0);
+    var points: array<vec3<f32>, 5>;
     for (var quarter = 0u; quarter < 5u; quarter++) {
         let at = on_side(surface, side, own.start + quarter * ((1u << own.bits) / 4u));
-        let point = measured_point(gregory_position(net, at.x, at.y));
-        if quarter > 0u {
-            chords[quarter - 1u] = distance_of(from_point, point);
-        }
-        from_point = point;
+        points[quarter] = gregory_position(net, at.x, at.y);
     }
-    return add(add(chords.x, chords.w), add(chords.y, chords.z));
+    return chords_extent(points);
+}
+
+// Length on screen of four chords, or how far the points are from one.
+fn chords_extent(line: array<vec3<f32>, 5>) -> f32 {
+    if is_flat() {
+        return chord_flatness(line);
+    }
+    var seen = line;
+    for (var k = 0u; k < 5u; k++) {
+        seen[k] = measured_point(seen[k]);
+    }
+    let outer = add(distance_of(seen[0], seen[1]), distance_of(seen[3], seen[4]));
+    return add(outer, add(distance_of(seen[1], seen[2]), distance_of(seen[2], seen[3])));
 }
 
 // How far, in pixels, points up to `off_axis` pixels from the axis move on screen if they move by `spread` along any
@@ -128,6 +259,32 @@ fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
     return Hull(centred.net, part, slack, centred.spread, centred.spread);
 }
 
+// Its patch's control points are multiplied by their weights.
+fn hull_of_rational(whole: Net, surface: Surface) -> Hull {
+    // Numerator and denominator each round, and so does the quotient.
+    let slack = mul(mul(extent(whole), ROUNDING), 4.0);
+    let weighted = homogeneous(WEIGHTS, whole);
+    return Hull(weighted, rational_between(WEIGHTS, weighted, range_of(surface)), slack, 0.0, 0.0);
+}
+
+fn hull_of_any(whole: Net, surface: Surface) -> Hull {
+    if IS_GREGORY {
+        return hull_of_gregory(whole, surface);
+    }
+    if IS_RATIONAL {
+        return hull_of_rational(whole, surface);
+    }
+    return hull_of_bezier(whole, surface);
+}
+
+// Control points of what a surface encloses beyond itself.
+fn more_of(hull: Hull, surface: Surface) -> Net {
+    if IS_RATIONAL {
+        return rational_between(WEIGHTS, hull.whole, enclosed(surface));
+    }
+    return net_between(hull.whole, enclosed(surface));
+}
+
 // The pixels that drawing the surface inside a hull can touch.
 fn pixels_of(hull: Hull) -> vec4<i32> {
     let nearest = nearest_of(hull);
@@ -139,27 +296,34 @@ fn pixels_of(hull: Hull) -> vec4<i32> {
 
 // The verdict on one surface of any patch, by the rules of the frame's profile.
 fn bound_any(surface: Surface) -> Verdict {
-    let record = faces_of(surface.patch_id);
-    IS_GREGORY = record != 0u;
-    REACH = objects[object_of(surface.patch_id)].reach;
-    let whole = in_eye_space(surface.patch_id);
-    var hull: Hull;
-    if IS_GREGORY {
-        FACES = faces_in_eye_space(record);
-        hull = hull_of_gregory(whole, surface);
-    } else {
-        hull = hull_of_bezier(whole, surface);
+    let known = instance(surface.patch_id);
+    RECORD = known.record;
+    OBJECT = known.object;
+    KIND = kind_of(RECORD);
+    REACH = objects[OBJECT].reach;
+    let more = faces_of(RECORD);
+    IS_RATIONAL = (KIND & KIND_RATIONAL) != 0u;
+    IS_GREGORY = more != 0u && !IS_RATIONAL;
+    if more != 0u {
+        FACES = faces_in_eye_space(more, OBJECT);
+        WEIGHTS = weights_of(more);
     }
+    let whole = in_eye_space(RECORD, OBJECT);
+    var hull = hull_of_any(whole, surface);
     hull.spread = add(hull.apart, REACH);
-    if (frame.flags & FLAG_WEBER) == 0u {
-        return judge(surface, hull);
+    if (frame.flags & FLAG_WEBER) != 0u {
+        return bound_weber(surface, whole, hull, more != 0u);
     }
-    return bound_weber(surface, whole, hull);
+    HAS_MORE = is_flat() && strayed_corners(surface) != 0u;
+    if HAS_MORE {
+        MORE = more_of(hull, surface);
+    }
+    return judge(surface, hull);
 }
 
 // The verdict by the rules of Weber's program.
-fn bound_weber(surface: Surface, whole: Net, hull: Hull) -> Verdict {
-    let code = weber_code(whole, FACES, IS_GREGORY, surface);
+fn bound_weber(surface: Surface, whole: Net, hull: Hull, has_faces: bool) -> Verdict {
+    let code = weber_code(whole, FACES, has_faces, surface);
     var pixels = PIXELS_EMPTY;
     if code == DRAW {
         pixels = pixels_of(hull);

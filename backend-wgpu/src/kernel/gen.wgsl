@@ -21,10 +21,19 @@ const FLAT: f32 = 2.4414063e-4f;
 const PARALLEL: f32 = 5.9604645e-8f;
 const INNER_MOST: f32 = 4.4444445e-1f;
 const THIRD: f32 = 3.3333334e-1f;
+const PLACE_BITS: u32 = 8u;
+const JOINED_SPLITS: u32 = 15u;
+const QUARTER: f32 = 2.5e-1f;
+const LINE_SHARE: f32 = 2.5e0f;
 const SHADE_TINY: f32 = 1e-30f;
-const OWNER_SHIFT: u32 = 4u;
+const OWNER_SHIFT: u32 = 6u;
+const OWNER_IS_HALF: u32 = 16u;
+const OWNER_IS_SECOND: u32 = 32u;
 const OWNER_IS_CORNER: u32 = 8u;
 const OWNER_IS_REVERSED: u32 = 1u;
+const KIND_HALVED: u32 = 15u;
+const KIND_HALF_SHIFT: u32 = 4u;
+const KIND_RATIONAL: u32 = 256u;
 const MAX_OCTAVES: u32 = 8u;
 const LATTICE_END: f32 = 4.194304e6f;
 const LATTICE_NEAR: f32 = 9.536743e-7f;
@@ -52,6 +61,8 @@ const FLAG_WHOLE: u32 = 16u;
 const FLAG_SMOOTH: u32 = 32u;
 const FLAG_LAYERS: u32 = 64u;
 const FLAG_SORT_LAST: u32 = 128u;
+const FLAG_FLAT: u32 = 256u;
+const FLAG_INSTANCES: u32 = 512u;
 const MAX_PATTERN_BITS: u32 = 3u;
 const MAX_SAMPLES: u32 = 64u;
 const OPAQUE_DEPTH: u32 = 1u;
@@ -67,6 +78,7 @@ struct Patch {
     z: array<f32, 16>,
     object: u32,
     faces: u32,
+    kind: u32,
     owners: array<u32, 8>,
 }
 
@@ -80,6 +92,8 @@ struct Object {
     frequency: f32,
     octaves: u32,
     opacity: f32,
+    first_patch: u32,
+    first_record: u32,
     normal_to_eye: array<f32, 9>,
 }
 
@@ -124,6 +138,7 @@ struct Frame {
     shown_top: u32,
     shown_bottom: u32,
     taps: u32,
+    object_count: u32,
 }
 
 struct Tap {

@@ -17,8 +17,7 @@ fn inner(m: u32) -> u32 {
     return 5u + m % 2u + 4u * (m / 2u);
 }
 
-fn faces_in_eye_space(record: u32) -> Faces {
-    let object = object_of(record);
+fn faces_in_eye_space(record: u32, object: u32) -> Faces {
     var faces: Faces;
     for (var l = 0u; l < 8u; l++) {
         faces.points[l] = point_to_eye(object, control_point(record, l));
