@@ -119,9 +119,16 @@ impl Surface {
     #[inline(always)]
     #[must_use]
     pub const fn corner(self, corner: usize) -> [u32; 2] {
+        astray(self.borders[corner] >> CORNER_SHIFT, self.seeming_corner(corner))
+    }
+
+    /// `u` and `v` of a corner, if it has not strayed.
+    #[inline(always)]
+    #[must_use]
+    pub const fn seeming_corner(self, corner: usize) -> [u32; 2] {
         let u = if corner.is_multiple_of(2) { self.u } else { self.u + self.u_size() };
         let v = if corner < 2 { self.v } else { self.v + self.v_size() };
-        astray(self.borders[corner] >> CORNER_SHIFT, [u, v])
+        [u, v]
     }
 
     /// Where a side begins along its line, and the log2 of its length.

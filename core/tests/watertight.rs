@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use common::{between, random, view};
 use glam::{DVec3, Vec3};
-use micropoly_core::abi::{Draw, FLAG_NAIVE, FLAG_WHOLE, Frame, Object, Patch};
+use micropoly_core::abi::{Draw, FLAG_FLAT, FLAG_NAIVE, FLAG_WHOLE, Frame, Object, Patch};
 use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::camera::Camera;
 use micropoly_core::displacement::Displacement;
@@ -174,6 +174,22 @@ fn closed_meshes_stay_closed() {
         assert!(tally.open == 0, "round {round}: {tally:?}");
         assert!(tally.collapsed * 10 < tally.triangles, "round {round}: {tally:?}");
     }
+}
+
+#[test]
+fn closed_meshes_stay_closed_where_surfaces_are_flat() {
+    let (mut random, mut triangles) = (random(4), 0);
+    for round in 0..48 {
+        let (n, rough) = ([1, 2, 3][round / 3 % 3], [0.05, 0.3, 1.0][round % 3]);
+        let patches = closed(&mut random, n, rough, round % 2 == 1);
+        let (mut frame, object) = view(&camera(&mut random), 160, 120);
+        frame.flags |= FLAG_WHOLE | FLAG_FLAT;
+        (frame.bound, frame.rate, frame.density) = ([0.5, 1.0, 4.0][random.usize(0..3)], 1, 1.0);
+        let tally = tally(&frame, &object, &patches);
+        assert!(tally.open == 0, "round {round}: {tally:?}");
+        triangles += tally.triangles;
+    }
+    assert!(triangles > 20_000, "{triangles}");
 }
 
 /// Bumps, small and large beside a unit sphere, coarse and fine.

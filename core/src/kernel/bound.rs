@@ -8,17 +8,19 @@ use crate::abi::{
     KIND_HALF_SHIFT, KIND_HALVED, KIND_RATIONAL, LENGTH_TINY, MAX_SPLITS, Object, Patch, ROUNDING, SPLIT_U,
     SPLIT_V, Surface, Verdict,
 };
-use crate::border::Side;
+use crate::border::{SIDES, Side, corners_of};
 use crate::kernel::dice_gregory::evaluate_gregory;
-use crate::kernel::flat::{View, enclosed, flatness};
+use crate::kernel::flat::{around, enclosed, flatness, part_flatness, side_flatness, strictness};
 use crate::kernel::project::perspective;
-use crate::kernel::sides::{Lengths, Strays, divide, polygon, rates, sides_of_gregory, with_half_lines};
+use crate::kernel::sides::{
+    Lengths, Strays, divide, is_half_way, polygon, rates, sides_of_gregory, with_half_lines,
+};
 use crate::kernel::weber;
 use crate::num::{add, clamp, float, floor, largest3, max, min, mul, neg, recip, scale3, sqrt, sub};
 use crate::patch::half::{Line, half_lines, joined_position};
 use crate::patch::instance::instance;
-use crate::patch::net::{fold, range_of};
-use crate::patch::{Faces, Net, Weights};
+use crate::patch::net::fold;
+use crate::patch::{Faces, Net, Range, Weights, range_of};
 
 /// The verdict on one surface of any patch, by the rules of the frame's profile.
 #[inline(always)]
@@ -37,7 +39,7 @@ pub fn bound_any(frame: &Frame, objects: &[Object], patches: &[Patch], surface: 
 #[inline(always)]
 #[must_use]
 pub fn bound(frame: &Frame, patch: &Patch, object: &Object, surface: Surface) -> Verdict {
-    judge(frame, surface, &Hull::of_bezier(frame, &[], patch, object, surface))
+    judge(frame, surface, &Hull::of_bezier(&[], patch, object, surface))
 }
 
 /// Control hull of a surface, and how far outside of it the surface can be.
@@ -49,8 +51,6 @@ struct Hull<'a> {
     /// Of the whole patch.
     whole: Net,
     part: Net,
-    /// Of all that the surface's vertices enclose, if that is more than the surface: only where it is to be flat.
-    more: Option<Net>,
     /// The weights of a rational patch.
     weights: Option<Weights>,
     /// Pieces of larger patches' sides, where the surface's sides are halves of them.
@@ -72,12 +72,6 @@ struct Apart {
     follower: Net,
 }
 
-/// What a surface encloses beyond itself, where it has to be flat.
-#[inline(always)]
-fn more_of(frame: &Frame, surface: Surface) -> Option<[[u32; 2]; 2]> {
-    if frame.flags & FLAG_FLAT == 0 || surface.keeps_its_corners() { None } else { Some(enclosed(surface)) }
-}
-
 impl<'a> Hull<'a> {
     #[inline(always)]
     fn of(
@@ -88,30 +82,23 @@ impl<'a> Hull<'a> {
         surface: Surface,
     ) -> Self {
         if patch.faces == 0 {
-            return Self::of_bezier(frame, patches, patch, object, surface);
+            return Self::of_bezier(patches, patch, object, surface);
         }
         let record = &patches[patch.faces as usize];
         if patch.kind & KIND_RATIONAL != 0 {
-            return Self::of_rational(frame, patch, record, object, surface);
+            return Self::of_rational(patch, record, object, surface);
         }
         Self::of_gregory(frame, patch, record, object, surface)
     }
 
     #[inline(always)]
-    fn of_bezier(
-        frame: &Frame,
-        patches: &'a [Patch],
-        patch: &'a Patch,
-        object: &'a Object,
-        surface: Surface,
-    ) -> Self {
+    fn of_bezier(patches: &'a [Patch], patch: &'a Patch, object: &'a Object, surface: Surface) -> Self {
         let whole = Net::in_eye_space(patch, object);
         Self {
             patches,
             patch,
             object,
             part: whole.restricted(surface),
-            more: more_of(frame, surface).map(|range| whole.between(range)),
             weights: None,
             lines: half_lines(patches, object, patch, surface),
             slack: mul(whole.extent(), ROUNDING),
@@ -122,20 +109,13 @@ impl<'a> Hull<'a> {
     }
 
     #[inline(never)]
-    fn of_rational(
-        frame: &Frame,
-        patch: &'a Patch,
-        record: &Patch,
-        object: &'a Object,
-        surface: Surface,
-    ) -> Self {
+    fn of_rational(patch: &'a Patch, record: &Patch, object: &'a Object, surface: Surface) -> Self {
         let (whole, weights) = (Net::in_eye_space(patch, object), Weights::of(record));
         Self {
             patches: &[],
             patch,
             object,
             part: weights.between(&whole, range_of(surface)),
-            more: more_of(frame, surface).map(|range| weights.between(&whole, range)),
             weights: Some(weights),
             lines: [None; 4],
             // Numerator and denominator each round, and so does the quotient.
@@ -159,16 +139,15 @@ impl<'a> Hull<'a> {
         let faces = Faces::in_eye_space(record, object);
         let slack = mul(max(whole.extent(), faces.extent()), ROUNDING);
         let exchanged = frame.flags & FLAG_WEBER != 0;
-        let spread = faces.centre_inner(&mut whole, surface, exchanged);
+        let spread = faces.centre_inner(&mut whole, range_of(surface), exchanged);
         let part = whole.restricted(surface);
         let mut follower = part;
-        faces.follow(&mut follower, surface, exchanged);
+        faces.follow(&mut follower, range_of(surface), exchanged);
         Self {
             patches: &[],
             patch,
             object,
             part,
-            more: more_of(frame, surface).map(|range| whole.between(range)),
             weights: None,
             lines: [None; 4],
             slack,
@@ -253,37 +232,74 @@ impl<'a> Hull<'a> {
     #[inline(never)]
     fn flatness(&self, frame: &Frame, surface: Surface) -> Lengths {
         let near = self.measured_from(frame);
-        let view = View { frame, near, is_cut: false };
-        let own = flatness(view, &self.part);
         let own = match &self.apart {
-            None => with_half_lines(frame, near, &self.lines, own),
+            None => with_half_lines(frame, near, &self.lines, flatness(frame, near, &self.part)),
             Some(apart) => {
-                let sides = sides_of_gregory(frame, near, &self.whole, &apart.faces, surface, own.sides);
-                flatness(view, &apart.follower).with_sides(sides)
+                let whole = part_flatness(frame, near, &apart.follower);
+                Lengths { u: whole, v: whole, sides: self.lines_of_gregory(frame, surface) }
             }
         };
-        self.with_more(view, own)
+        let mut sides = own.sides;
+        for side in SIDES {
+            sides[side] = mul(self.strictness(surface, side), sides[side]);
+        }
+        let own = Lengths { sides, ..own }.with_sides(sides);
+        if surface.keeps_its_corners() { own } else { self.astray(frame, surface, own) }
     }
 
-    /// With what is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it.
-    #[inline(always)]
-    fn with_more(&self, view: View<'_>, own: Lengths) -> Lengths {
-        let Some(more) = &self.more else { return own };
-        let most = mul(2.0, flatness(view, more).u);
-        Lengths { u: most, v: most, ..own }.with_sides(own.sides)
+    /// How far the sides of a surface of a Gregory patch are from their chords, each by itself: a surface's own net, which
+    /// is another one on the other side of a line, has no part in it.
+    #[inline(never)]
+    fn lines_of_gregory(&self, frame: &Frame, surface: Surface) -> [f32; 4] {
+        let near = self.measured_from(frame);
+        SIDES.map(|side| {
+            let [first, last] = corners_of(side).map(|corner| surface.seeming_corner(corner));
+            side_flatness(frame, near, &self.between(around(first, last, last)), side)
+        })
     }
 
-    /// Lengths along u and along v, in pixels, of a surface that crosses the near plane: as if all of it were there, and
-    /// turned to the eye. No part of it that can be seen is longer. Or how far it is from being flat.
+    /// With what is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it,
+    /// so all of it has to be twice as flat. The same goes for live sides that begin or end with such a corner.
+    #[inline(never)]
+    fn astray(&self, frame: &Frame, surface: Surface, own: Lengths) -> Lengths {
+        let near = self.measured_from(frame);
+        let off = |range: Range| part_flatness(frame, near, &self.between(range));
+        let mut sides = own.sides;
+        for side in SIDES {
+            let [first, last] = corners_of(side);
+            let has_strayed = surface.has_strayed(first) || surface.has_strayed(last);
+            if has_strayed && surface.side(side).steps == 0 {
+                let (from, to) = (surface.corner(first), surface.corner(last));
+                let strictness = self.strictness(surface, side);
+                sides[side] = max(sides[side], mul(strictness, off(around(from, to, to))));
+            }
+        }
+        let [first, second] = enclosed(surface);
+        let most = mul(2.0, max(off(first), off(second)));
+        Lengths { u: most, v: most, sides }.with_sides(sides)
+    }
+
+    /// How many times as flat as a surface one of its sides has to be: the same for whoever has it.
     #[inline(always)]
-    fn extents_if_cut(&self, frame: &Frame, near: f32) -> (f32, f32) {
-        let own = if frame.flags & FLAG_FLAT != 0 {
-            let view = View { frame, near, is_cut: true };
-            self.with_more(view, flatness(view, &self.part))
-        } else {
-            lengths_if_cut(frame, near, &self.part)
-        };
-        (own.u, own.v)
+    fn strictness(&self, surface: Surface, side: usize) -> f32 {
+        let bits = surface.extent_of(side).1;
+        strictness(if self.lines[side].is_some() { bits - 1 } else { bits })
+    }
+
+    /// Control points of a part of the patch, or of a Bézier patch that is nearly the same there.
+    #[inline(always)]
+    fn between(&self, range: Range) -> Net {
+        match (&self.apart, &self.weights) {
+            (None, None) => self.whole.between(range),
+            (None, Some(weights)) => weights.between(&self.whole, range),
+            (Some(Apart { faces, .. }), _) => {
+                let mut net = self.whole;
+                let _ = faces.centre_inner(&mut net, range, false);
+                let mut part = net.between(range);
+                faces.follow(&mut part, range, false);
+                part
+            }
+        }
     }
 }
 
@@ -377,7 +393,7 @@ pub(super) fn by_length(
 #[inline(always)]
 fn by_extents(frame: &Frame, surface: Surface, kind: u32, extents: (f32, f32)) -> u32 {
     if frame.flags & FLAG_FLAT != 0 {
-        return quartered(frame, surface, kind, extents.0);
+        return quartered(frame, surface, kind, max(extents.0, extents.1));
     }
     if is_halved(kind, 3) && surface.u_level() == 0 {
         return if may_split(frame, surface, 1) { SPLIT_U } else { DRAW_LIMITED };
@@ -410,7 +426,7 @@ const fn most_splits(kind: u32) -> u32 {
 /// for it as for any other.
 #[inline(always)]
 fn quartered(frame: &Frame, surface: Surface, kind: u32, off: f32) -> u32 {
-    if surface.u_level() > surface.v_level() {
+    if is_half_way(frame, surface) {
         return SPLIT_V;
     }
     let is_whole = surface.level() == 0 && is_halved(kind, KIND_HALVED);
@@ -457,8 +473,8 @@ fn judge(frame: &Frame, surface: Surface, hull: &Hull) -> Verdict {
     if crosses {
         let pixels =
             if strays.is_some() { PixelBox::whole(frame) } else { pixels_if_cut(frame, hull, farthest) };
-        let is_cut = hull.nearest_smooth() < near;
-        let extents = if is_cut { hull.extents_if_cut(frame, near) } else { (lengths.u, lengths.v) };
+        let is_cut = hull.nearest_smooth() < near && frame.flags & FLAG_FLAT == 0;
+        let extents = if is_cut { extents_if_cut(frame, near, &hull.part) } else { (lengths.u, lengths.v) };
         let code = by_extents(frame, surface, kind, extents);
         return with_sides(frame, surface, kind, &lengths, verdict(code, pixels));
     }
@@ -565,22 +581,19 @@ fn beyond(frame: &Frame, part: &Net, c: &[f32; 16], half: f32, slack: f32) -> bo
     add(fold(&low, max), tolerance) < 0.0 || add(fold(&high, max), tolerance) < 0.0
 }
 
-/// Lengths of a surface as if all of it were at the near plane, and turned to the eye.
+/// Lengths along u and along v, in pixels, of a surface that crosses the near plane: as if all of it were there, and
+/// turned to the eye. No part of it that can be seen is longer.
 #[inline(always)]
-fn lengths_if_cut(frame: &Frame, near: f32, part: &Net) -> Lengths {
+fn extents_if_cut(frame: &Frame, near: f32, part: &Net) -> (f32, f32) {
+    let scale = mul(frame.focal, recip(near));
     let mut points = *part;
     for l in 0..16 {
-        [points.x[l], points.y[l], points.z[l]] =
-            point_if_cut(frame, near, [part.x[l], part.y[l], part.z[l]]);
+        for c in [&mut points.x[l], &mut points.y[l], &mut points.z[l]] {
+            *c = clamp(mul(*c, scale), neg(FAR_OFF), FAR_OFF);
+        }
     }
-    Lengths::new(polygons_u(&points), polygons_v(&points))
-}
-
-/// Where a point is for that.
-#[inline(always)]
-pub(super) fn point_if_cut(frame: &Frame, near: f32, point: [f32; 3]) -> [f32; 3] {
-    let scale = mul(frame.focal, recip(near));
-    point.map(|c| clamp(mul(c, scale), neg(FAR_OFF), FAR_OFF))
+    let lengths = Lengths::new(polygons_u(&points), polygons_v(&points));
+    (lengths.u, lengths.v)
 }
 
 /// The pixels that drawing a surface can touch of which parts lie as near as the near plane.

@@ -10,7 +10,7 @@ use crate::abi::{
 use crate::border::{SIDES, Side};
 use crate::kernel::bound::{Reach, distance, measured_point, point_on_screen, wobble};
 use crate::kernel::dice_gregory::evaluate_gregory;
-use crate::kernel::flat::{View, chord_flatness, line_flatness};
+use crate::kernel::flat::line_flatness;
 use crate::num::{abs, add, clamp, float, floor, max, min, mul, neg, sub};
 use crate::patch::half::{Line, is_outer};
 use crate::patch::{Faces, Net};
@@ -63,7 +63,8 @@ pub fn steps(frame: &Frame, length: f32) -> u32 {
 }
 
 /// How the sides of a surface of a patch of this kind are divided, given their lengths: as they were, unless they are live
-/// and short enough; or long, but may not be halved any more.
+/// and short enough; or long, but may not be halved any more. Half way through a split into four nothing is decided, so
+/// that the middle of the four is a vertex.
 #[inline(always)]
 #[must_use]
 pub fn divide(frame: &Frame, surface: Surface, kind: u32, lengths: &Lengths, code: u32) -> [Side; 4] {
@@ -71,7 +72,7 @@ pub fn divide(frame: &Frame, surface: Surface, kind: u32, lengths: &Lengths, cod
     for side in SIDES {
         let known = surface.side(side);
         let is_short = lengths.sides[side] <= frame.bound && !is_to_be_halved(surface, kind, side);
-        let is_last = is_short || code == DRAW_LIMITED;
+        let is_last = is_short && !is_half_way(frame, surface) || code == DRAW_LIMITED;
         out[side] = if known.steps == 0 && is_last && frame.flags & FLAG_NAIVE == 0 {
             Side { steps: steps(frame, lengths.sides[side]), bits: surface.extent_of(side).1 }
         } else {
@@ -79,6 +80,12 @@ pub fn divide(frame: &Frame, surface: Surface, kind: u32, lengths: &Lengths, cod
         };
     }
     out
+}
+
+/// Has a surface that is split into four been split once?
+#[inline(always)]
+pub(super) const fn is_half_way(frame: &Frame, surface: Surface) -> bool {
+    frame.flags & FLAG_FLAT != 0 && surface.u_level() > surface.v_level()
 }
 
 /// Is a side all of one side of its patch, with two patches on the other side of it?
@@ -108,7 +115,7 @@ pub(super) fn with_half_lines(
 #[inline(always)]
 fn line_extent(frame: &Frame, near: f32, line: &Line) -> f32 {
     if frame.flags & FLAG_FLAT != 0 {
-        return line_flatness(View { frame, near, is_cut: false }, line);
+        return line_flatness(frame, near, line);
     }
     let [a, b, c, d] = line.map(|point| measured_point(frame, near, point));
     polygon(distance(a, b), distance(b, c), distance(c, d))
@@ -148,26 +155,16 @@ pub(super) fn sides_of_gregory(
             continue;
         }
         let along = side / 2;
-        let mut points = [[0.0; 3]; 5];
-        for (quarter, point) in (0..).zip(&mut points) {
+        let mut seen = [[0.0; 3]; 5];
+        for (quarter, seen) in (0..).zip(&mut seen) {
             let mut at = [ends[side]; 2];
             at[along] = low[along] + quarter * (high[along] / 4);
-            *point = evaluate_gregory(net, faces, frame, at[0], at[1]).point;
+            *seen = measured_point(frame, near, evaluate_gregory(net, faces, frame, at[0], at[1]).point);
         }
-        out[side] = chords_extent(frame, near, &points);
+        let chord = |k: usize| distance(seen[k], seen[k + 1]);
+        out[side] = add(add(chord(0), chord(3)), add(chord(1), chord(2)));
     }
     out
-}
-
-/// Length on screen of four chords, or how far the points are from one.
-#[inline(always)]
-fn chords_extent(frame: &Frame, near: f32, points: &[[f32; 3]; 5]) -> f32 {
-    if frame.flags & FLAG_FLAT != 0 {
-        return chord_flatness(View { frame, near, is_cut: false }, points);
-    }
-    let seen = points.map(|point| measured_point(frame, near, point));
-    let chord = |k: usize| distance(seen[k], seen[k + 1]);
-    add(add(chord(0), chord(3)), add(chord(1), chord(2)))
 }
 
 /// Where corners are that have strayed from a surface: it is drawn as far as there.

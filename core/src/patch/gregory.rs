@@ -4,10 +4,10 @@
 //! the other on the border of constant v, so that the tangent planes of each border are that border's own.
 //! Border curves are those of the net alone: plain cubics, the same as a Bézier patch has.
 
-use crate::abi::{INNER_MOST, Object, PARAM_ONE, PARAM_STEP, Patch, Surface, THIRD};
+use crate::abi::{INNER_MOST, Object, PARAM_ONE, PARAM_STEP, Patch, THIRD};
 use crate::num::{abs, add, float, largest3, max, min, mul, neg, recip, scale3, sub};
-use crate::patch::Net;
 use crate::patch::bezier::{blossom, param};
+use crate::patch::{Net, Range};
 
 /// Where the inner points stand in a net: 2·i + j of them is the one beside the borders u = i and v = j.
 pub const INNER: [usize; 4] = [5, 6, 9, 10];
@@ -99,14 +99,13 @@ impl Faces {
         at
     }
 
-    /// Puts the middles of all shares that occur on a surface into the net of the whole patch, and gives how
-    /// far, along any axis, the surface can be from that net's.
+    /// Puts the middles of all shares that occur on a surface, given by its range, into the net of the whole patch, and
+    /// gives how far, along any axis, the surface can be from that net's.
     ///
     /// `exchanged`: with the blends of [`weber_blends`].
     #[inline(always)]
     #[must_use]
-    pub fn centre_inner(&self, net: &mut Net, surface: Surface, exchanged: bool) -> f32 {
-        let (along_u, along_v) = ((surface.u, surface.u_size()), (surface.v, surface.v_size()));
+    pub fn centre_inner(&self, net: &mut Net, [along_u, along_v]: Range, exchanged: bool) -> f32 {
         let (first, second) = if exchanged { (along_v, along_u) } else { (along_u, along_v) };
         let mut spread = 0.0;
         for m in 0..4 {
@@ -125,11 +124,10 @@ impl Faces {
     /// the shares at the surface's four corners, and between them, take them: lengths are then right to first
     /// order.
     #[inline(always)]
-    pub fn follow(&self, part: &mut Net, surface: Surface, exchanged: bool) {
-        let (along_u, along_v) = ((surface.u, surface.u_size()), (surface.v, surface.v_size()));
+    pub fn follow(&self, part: &mut Net, range: Range, exchanged: bool) {
+        let [along_u, along_v] = range;
         let (first, second) = if exchanged { (along_v, along_u) } else { (along_u, along_v) };
-        let weights_u = blossom(surface.u, surface.u + surface.u_size());
-        let weights_v = blossom(surface.v, surface.v + surface.v_size());
+        let (weights_u, weights_v) = (blossom(along_u[0], along_u[1]), blossom(along_v[0], along_v[1]));
         for m in 0..4 {
             let (a, b) = (ends(first, m / 2), ends(second, m % 2));
             let (from, middle) =
@@ -156,12 +154,8 @@ pub(crate) const fn mix(low: f32, high: f32, t: f32) -> f32 {
 
 /// Distances of a range's low and high end from the end 0 or 1 of its parameter.
 #[inline(always)]
-const fn ends((start, size): (u32, u32), end: usize) -> [f32; 2] {
-    if end == 0 {
-        [param(start), param(start + size)]
-    } else {
-        [param(PARAM_ONE - start), param(PARAM_ONE - start - size)]
-    }
+const fn ends([low, high]: [u32; 2], end: usize) -> [f32; 2] {
+    if end == 0 { [param(low), param(high)] } else { [param(PARAM_ONE - low), param(PARAM_ONE - high)] }
 }
 
 /// The middle of all shares at distances in two ranges.
@@ -172,7 +166,7 @@ const fn middle(a: (f32, f32), b: (f32, f32)) -> f32 {
 
 /// Least and largest distance of a range from the end 0 or 1 of its parameter.
 #[inline(always)]
-const fn distances(range: (u32, u32), end: usize) -> (f32, f32) {
+const fn distances(range: [u32; 2], end: usize) -> (f32, f32) {
     let [low, high] = ends(range, end);
     if end == 0 { (low, high) } else { (high, low) }
 }

@@ -9,5 +9,5 @@ pub mod owner;
 pub mod rational;
 
 pub use gregory::Faces;
-pub use net::Net;
+pub use net::{Net, Range, range_of};
 pub use rational::Weights;

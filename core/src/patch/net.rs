@@ -58,10 +58,10 @@ impl Net {
         self.between(range_of(surface))
     }
 
-    /// The same of a range: the low and the high end of `u`, then those of `v`.
+    /// The same of a range.
     #[inline(always)]
     #[must_use]
-    pub fn between(&self, [u, v]: [[u32; 2]; 2]) -> Self {
+    pub fn between(&self, [u, v]: Range) -> Self {
         let (along_u, along_v) = (blossom(u[0], u[1]), blossom(v[0], v[1]));
         Self {
             x: combine_v(&combine_u(&self.x, &along_u), &along_v),
@@ -71,10 +71,13 @@ impl Net {
     }
 }
 
-/// The low and the high end of a surface's `u`, then those of its `v`.
+/// A range of parameters: the low and the high end of `u`, then those of `v`.
+pub type Range = [[u32; 2]; 2];
+
+/// The range of a surface.
 #[inline(always)]
 #[must_use]
-pub(crate) const fn range_of(surface: Surface) -> [[u32; 2]; 2] {
+pub const fn range_of(surface: Surface) -> Range {
     [[surface.u, surface.u + surface.u_size()], [surface.v, surface.v + surface.v_size()]]
 }
 

@@ -6,9 +6,9 @@
 use crate::abi::Patch;
 use crate::kernel::dice::Vertex;
 use crate::num::{mul, recip, sub};
-use crate::patch::Net;
 use crate::patch::bezier::{blend3, blend4, blossom, cubic, cubic_slope, param};
 use crate::patch::net::{combine_u, combine_v};
+use crate::patch::{Net, Range};
 
 /// The weights of a rational patch; index `4·i + j` with `i` along `u`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,11 +37,10 @@ impl Weights {
         [weighted(&net.x), weighted(&net.y), weighted(&net.z), self.0]
     }
 
-    /// Control points, not multiplied by their weights, of a part of the patch: between the low and the high end of `u`,
-    /// and those of `v`.
+    /// Control points, not multiplied by their weights, of a part of the patch.
     #[inline(always)]
     #[must_use]
-    pub fn between(&self, net: &Net, [u, v]: [[u32; 2]; 2]) -> Net {
+    pub fn between(&self, net: &Net, [u, v]: Range) -> Net {
         let (along_u, along_v) = (blossom(u[0], u[1]), blossom(v[0], v[1]));
         let [mut x, mut y, mut z, weights] =
             self.homogeneous(net).map(|c| combine_v(&combine_u(&c, &along_u), &along_v));
