@@ -88,9 +88,14 @@ fn strayed_corners(surface: Surface) -> u32 {
 
 // u and v of the vertex at a corner.
 fn corner_at(surface: Surface, corner: u32) -> vec2<u32> {
+    return astray(chosen(corners_of(surface), corner), seeming_corner(surface, corner));
+}
+
+// u and v of a corner, if it has not strayed.
+fn seeming_corner(surface: Surface, corner: u32) -> vec2<u32> {
     let u = surface.u + select(0u, u_size(surface), (corner & 1u) != 0u);
     let v = surface.v + select(0u, v_size(surface), (corner & 2u) != 0u);
-    return astray(chosen(corners_of(surface), corner), vec2<u32>(u, v));
+    return vec2<u32>(u, v);
 }
 
 // Where a side begins along its line, and the log2 of its length.

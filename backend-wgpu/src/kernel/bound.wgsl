@@ -85,8 +85,8 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
     var extents = vec2<f32>(lengths.u, lengths.v);
     var pixels = whole_window();
     if crosses && !is_whole() {
-        if nearest_smooth(hull) < measured_from() {
-            extents = extents_if_cut(hull);
+        if nearest_smooth(hull) < measured_from() && !is_flat() {
+            extents = extents_if_cut(hull.part);
         }
         if !strays.exist {
             pixels = pixels_if_cut(hull, farthest);
@@ -198,26 +198,17 @@ fn beyond(depths: array<f32, 16>, coordinates: array<f32, 16>, half: f32, slack:
     return add(fold_max(low), tolerance) < 0.0 || add(fold_max(high), tolerance) < 0.0;
 }
 
-// Lengths along u and along v of a surface as if all of it were at the near plane, and turned to the eye.
-fn lengths_if_cut(part: Net) -> vec2<f32> {
+// Lengths along u and along v of a surface that crosses the near plane: as if all of it were there, and turned to the
+// eye.
+fn extents_if_cut(part: Net) -> vec2<f32> {
+    let scale = mul(frame.focal, recip(measured_from()));
     var points = part;
     for (var l = 0u; l < 16u; l++) {
-        let point = point_if_cut(vec3<f32>(points.x[l], points.y[l], points.z[l]));
-        points.x[l] = point.x;
-        points.y[l] = point.y;
-        points.z[l] = point.z;
+        points.x[l] = clamp(mul(points.x[l], scale), neg(FAR_OFF), FAR_OFF);
+        points.y[l] = clamp(mul(points.y[l], scale), neg(FAR_OFF), FAR_OFF);
+        points.z[l] = clamp(mul(points.z[l], scale), neg(FAR_OFF), FAR_OFF);
     }
     return vec2<f32>(longest(polygons_u(points)), longest(polygons_v(points)));
-}
-
-// Where a point is for that.
-fn point_if_cut(point: vec3<f32>) -> vec3<f32> {
-    let scale = mul(frame.focal, recip(measured_from()));
-    return vec3<f32>(
-        clamp(mul(point.x, scale), neg(FAR_OFF), FAR_OFF),
-        clamp(mul(point.y, scale), neg(FAR_OFF), FAR_OFF),
-        clamp(mul(point.z, scale), neg(FAR_OFF), FAR_OFF),
-    );
 }
 
 // The pixels that drawing a surface can touch of which parts lie as near as the near plane.

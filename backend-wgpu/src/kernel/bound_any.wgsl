@@ -14,10 +14,6 @@ var<private> IS_GREGORY: bool;
 // The patch's weights.
 var<private> WEIGHTS: Weights;
 var<private> IS_RATIONAL: bool;
-// Control points of all that the surface's vertices enclose, if that is more than the surface: only where it is to be
-// flat.
-var<private> MORE: Net;
-var<private> HAS_MORE: bool;
 // What displacement can do, along any axis of eye space.
 var<private> REACH: f32;
 
@@ -91,36 +87,89 @@ fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
 
 // How far a surface and its sides are from being flat.
 fn flatness_of(surface: Surface, hull: Hull) -> Lengths {
-    let own = flatness(false, hull.part);
-    if !IS_GREGORY {
-        return with_more(false, with_half_lines(surface, own));
+    var sides: vec4<f32>;
+    for (var side = 0u; side < 4u; side++) {
+        sides[side] = mul(side_strictness(surface, side), line_flatness(line_of(surface, hull, side)));
     }
-    let sides = sides_of_gregory(hull.whole, surface, own.sides);
-    return with_more(false, with_own_sides(flatness(false, FOLLOWER), sides));
+    if strayed_corners(surface) != 0u {
+        return flatness_astray(surface, hull, sides);
+    }
+    var net = hull.part;
+    if IS_GREGORY {
+        net = FOLLOWER;
+    }
+    let whole = part_flatness(net);
+    return with_own_sides(Lengths(whole, whole, sides), sides);
 }
 
-// With what is enclosed by corners that have strayed, in place of the surface itself.
-fn with_more(is_cut: bool, own: Lengths) -> Lengths {
-    if !HAS_MORE {
-        return own;
+// Control points of a side. Those inside a Gregory patch are found each by itself: a surface's own net, which is another
+// one on the other side of a line, has no part in it.
+fn line_of(surface: Surface, hull: Hull, side: u32) -> Line {
+    if is_half_line(surface, side) {
+        return half_line_of(surface, side);
     }
-    let most = mul(2.0, flatness(is_cut, MORE).u);
-    return with_own_sides(Lengths(most, most, own.sides), own.sides);
+    var net = hull.part;
+    if IS_GREGORY {
+        let first = seeming_corner(surface, first_corner(side));
+        let last = seeming_corner(surface, last_corner(side));
+        net = between_any(hull, range_around(first, last, last));
+    }
+    return side_line(net, side);
 }
 
-// Of a surface that crosses the near plane.
-fn extents_if_cut(hull: Hull) -> vec2<f32> {
-    if is_flat() {
-        let own = with_more(true, flatness(true, hull.part));
-        return vec2<f32>(own.u, own.v);
+// What is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it, so all of
+// it has to be twice as flat. The same goes for live sides that begin or end with such a corner.
+fn flatness_astray(surface: Surface, hull: Hull, own: vec4<f32>) -> Lengths {
+    var sides = own;
+    var most = 0.0;
+    for (var part = 0u; part < 6u; part++) {
+        let corners = corners_around(part);
+        let has_strayed = (strayed_corners(surface) & ((1u << corners.x) | (1u << corners.z))) != 0u;
+        if part > 3u || (has_strayed && side_of(surface, part).steps == 0u) {
+            let range = range_around(
+                corner_at(surface, corners.x), corner_at(surface, corners.y), corner_at(surface, corners.z));
+            let off = part_flatness(between_any(hull, range));
+            if part > 3u {
+                most = max(most, mul(2.0, off));
+            } else {
+                sides[part] = max(sides[part], mul(side_strictness(surface, part), off));
+            }
+        }
     }
-    return lengths_if_cut(hull.part);
+    return with_own_sides(Lengths(most, most, sides), sides);
+}
+
+// The corners of a part that has to be flat: of a side, which has the last one twice, or, from number 4 on, of one of
+// both triangles.
+fn corners_around(part: u32) -> vec3<u32> {
+    if part < 4u {
+        return vec3<u32>(first_corner(part), last_corner(part), last_corner(part));
+    }
+    return select(vec3<u32>(0u, 3u, 2u), vec3<u32>(0u, 1u, 3u), part == 4u);
+}
+
+// How many times as flat as a surface one of its sides has to be: the same for whoever has it.
+fn side_strictness(surface: Surface, side: u32) -> f32 {
+    let bits = extent_of(surface, side).bits;
+    return strictness(select(bits, bits - 1u, is_half_line(surface, side)));
+}
+
+// Control points of a part of the patch, or of a Bezier patch that is nearly the same there.
+fn between_any(hull: Hull, range: vec4<u32>) -> Net {
+    if IS_RATIONAL {
+        return rational_between(WEIGHTS, hull.whole, range);
+    }
+    if IS_GREGORY {
+        let centred = centre_inner(FACES, hull.whole, range, false);
+        return follow(FACES, net_between(centred.net, range), range, false);
+    }
+    return net_between(hull.whole, range);
 }
 
 // What becomes of a surface in view that is so long.
 fn by_extents(surface: Surface, extents: vec2<f32>) -> u32 {
     if is_flat() {
-        return quartered(surface, extents.x);
+        return quartered(surface, max(extents.x, extents.y));
     }
     let is_forced_u = is_halved(3u) && u_level(surface) == 0u;
     if is_forced_u || (is_halved(12u) && v_level(surface) == 0u) {
@@ -142,7 +191,7 @@ fn most_splits() -> u32 {
 
 // What becomes of a surface that is so far from being flat: it is split into four, in two steps.
 fn quartered(surface: Surface, off: f32) -> u32 {
-    if u_level(surface) > v_level(surface) {
+    if is_half_way(surface) {
         return SPLIT_V;
     }
     let is_whole_and_halved = level(surface) == 0u && is_halved(KIND_HALVED);
@@ -152,29 +201,44 @@ fn quartered(surface: Surface, off: f32) -> u32 {
     return select(DRAW_LIMITED, SPLIT_U, u_level(surface) < most_splits() && may_split(surface, 2u));
 }
 
-// Mirrors core/src/kernel/sides.rs: is a side all of one side of its patch, with two patches on the other side of it?
+// Mirrors core/src/kernel/sides.rs: is a side not to be divided yet, however short it is?
+fn stays_live(surface: Surface, side: u32) -> bool {
+    return is_half_way(surface) || is_to_be_halved(surface, side);
+}
+
+// Has a surface that is split into four been split once?
+fn is_half_way(surface: Surface) -> bool {
+    return is_flat() && u_level(surface) > v_level(surface);
+}
+
+// Is a side all of one side of its patch, with two patches on the other side of it?
 fn is_to_be_halved(surface: Surface, side: u32) -> bool {
     return is_halved(1u << side) && extent_of(surface, side).bits == PARAM_BITS && is_outer(surface, side);
+}
+
+// Is a side half of another patch's?
+fn is_half_line(surface: Surface, side: u32) -> bool {
+    return (KIND & (1u << (side + KIND_HALF_SHIFT))) != 0u && is_outer(surface, side);
+}
+
+fn half_line_of(surface: Surface, side: u32) -> Line {
+    let own = extent_of(surface, side);
+    return half_line(owner_word(RECORD, side), OBJECT, own.start, own.start + (1u << own.bits));
 }
 
 // Lengths of the sides of a surface, those replaced that are halves of other patches' sides.
 fn with_half_lines(surface: Surface, own: Lengths) -> Lengths {
     var sides = own.sides;
     for (var side = 0u; side < 4u; side++) {
-        if (KIND & (1u << (side + KIND_HALF_SHIFT))) != 0u && is_outer(surface, side) {
-            let extent = extent_of(surface, side);
-            let word = owner_word(RECORD, side);
-            sides[side] = line_extent(half_line(word, OBJECT, extent.start, extent.start + (1u << extent.bits)));
+        if is_half_line(surface, side) {
+            sides[side] = line_extent(half_line_of(surface, side));
         }
     }
     return with_own_sides(own, sides);
 }
 
-// Length of a line's control polygon on screen, or how far it is from its chord.
+// Length of a line's control polygon on screen.
 fn line_extent(line: Line) -> f32 {
-    if is_flat() {
-        return line_flatness(line);
-    }
     var seen = line.points;
     for (var k = 0u; k < 4u; k++) {
         seen[k] = measured_point(seen[k]);
@@ -202,25 +266,17 @@ fn sides_of_gregory(net: Net, surface: Surface, lengths: vec4<f32>) -> vec4<f32>
 
 fn line_inside(net: Net, surface: Surface, side: u32) -> f32 {
     let own = extent_of(surface, side);
-    var points: array<vec3<f32>, 5>;
+    var chords: vec4<f32>;
+    var from_point = vec3<f32>(0.0, 0.0, 0.0);
     for (var quarter = 0u; quarter < 5u; quarter++) {
         let at = on_side(surface, side, own.start + quarter * ((1u << own.bits) / 4u));
-        points[quarter] = gregory_position(net, at.x, at.y);
+        let point = measured_point(gregory_position(net, at.x, at.y));
+        if quarter > 0u {
+            chords[quarter - 1u] = distance_of(from_point, point);
+        }
+        from_point = point;
     }
-    return chords_extent(points);
-}
-
-// Length on screen of four chords, or how far the points are from one.
-fn chords_extent(line: array<vec3<f32>, 5>) -> f32 {
-    if is_flat() {
-        return chord_flatness(line);
-    }
-    var seen = line;
-    for (var k = 0u; k < 5u; k++) {
-        seen[k] = measured_point(seen[k]);
-    }
-    let outer = add(distance_of(seen[0], seen[1]), distance_of(seen[3], seen[4]));
-    return add(outer, add(distance_of(seen[1], seen[2]), distance_of(seen[2], seen[3])));
+    return add(add(chords.x, chords.w), add(chords.y, chords.z));
 }
 
 // How far, in pixels, points up to `off_axis` pixels from the axis move on screen if they move by `spread` along any
@@ -253,9 +309,10 @@ fn around(place: f32, by: f32) -> Reach {
 fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
     let slack = mul(max(extent(whole), faces_extent(FACES)), ROUNDING);
     let exchanged = (frame.flags & FLAG_WEBER) != 0u;
-    let centred = centre_inner(FACES, whole, surface, exchanged);
-    let part = restricted(centred.net, surface);
-    FOLLOWER = follow(FACES, part, surface, exchanged);
+    let range = range_of(surface);
+    let centred = centre_inner(FACES, whole, range, exchanged);
+    let part = net_between(centred.net, range);
+    FOLLOWER = follow(FACES, part, range, exchanged);
     return Hull(centred.net, part, slack, centred.spread, centred.spread);
 }
 
@@ -275,14 +332,6 @@ fn hull_of_any(whole: Net, surface: Surface) -> Hull {
         return hull_of_rational(whole, surface);
     }
     return hull_of_bezier(whole, surface);
-}
-
-// Control points of what a surface encloses beyond itself.
-fn more_of(hull: Hull, surface: Surface) -> Net {
-    if IS_RATIONAL {
-        return rational_between(WEIGHTS, hull.whole, enclosed(surface));
-    }
-    return net_between(hull.whole, enclosed(surface));
 }
 
 // The pixels that drawing the surface inside a hull can touch.
@@ -313,10 +362,6 @@ fn bound_any(surface: Surface) -> Verdict {
     hull.spread = add(hull.apart, REACH);
     if (frame.flags & FLAG_WEBER) != 0u {
         return bound_weber(surface, whole, hull, more != 0u);
-    }
-    HAS_MORE = is_flat() && strayed_corners(surface) != 0u;
-    if HAS_MORE {
-        MORE = more_of(hull, surface);
     }
     return judge(surface, hull);
 }

@@ -10,6 +10,10 @@ fn is_whole() -> bool {
     return false;
 }
 
+fn is_flat() -> bool {
+    return false;
+}
+
 fn is_displaced() -> bool {
     return false;
 }
@@ -51,10 +55,6 @@ fn most_splits() -> u32 {
     return MAX_SPLITS;
 }
 
-fn is_to_be_halved(surface: Surface, side: u32) -> bool {
+fn stays_live(surface: Surface, side: u32) -> bool {
     return false;
-}
-
-fn extents_if_cut(hull: Hull) -> vec2<f32> {
-    return lengths_if_cut(hull.part);
 }

@@ -1,65 +1,81 @@
 // Mirrors core/src/kernel/flat.rs: how far a surface is, on screen, from the one micropolygon that would be drawn for it.
 
-// How far a surface, given the control points of it or of more than it, is from its two triangles, and its sides from
-// their chords; `is_cut`: measured as if it were at the near plane, and turned to the eye.
-fn flatness(is_cut: bool, part: Net) -> Lengths {
-    let low_first = net_corner(part, 0u);
-    let low_last = net_corner(part, 3u);
-    let high_first = net_corner(part, 12u);
-    let high_last = net_corner(part, 15u);
-    var off: array<f32, 16>;
+// How far a part of a patch, given its control points, is from its two triangles, whatever its sides are.
+fn part_flatness(part: Net) -> f32 {
+    let a = net_point(part, 0u);
+    let b = net_point(part, 3u);
+    let c = net_point(part, 12u);
+    let d = net_point(part, 15u);
     var most = 0.0;
-    for (var i = 0u; i < 4u; i++) {
-        let a = raised(low_first, high_first, i);
-        let b = raised(low_last, high_last, i);
-        for (var j = 0u; j < 4u; j++) {
-            let l = 4u * i + j;
-            off[l] = distance_seen(is_cut, net_corner(part, l), raised(a, b, j));
-            most = max(most, off[l]);
-        }
+    var nearest = before_eye(a);
+    for (var l = 0u; l < 16u; l++) {
+        let point = net_point(part, l);
+        let even = raised(raised(a, c, l / 4u), raised(b, d, l / 4u), l % 4u);
+        most = max(most, apart(point, even));
+        nearest = min(nearest, before_eye(point));
     }
-    let sides = vec4<f32>(
-        mul(LINE_SHARE, max(off[4], off[8])),
-        mul(LINE_SHARE, max(off[7], off[11])),
-        mul(LINE_SHARE, max(off[1], off[2])),
-        mul(LINE_SHARE, max(off[13], off[14])),
-    );
     // The two triangles are farthest from the bilinear patch in its middle.
-    let ridge = midpoint(low_first, high_last);
-    let other = midpoint(low_last, high_first);
-    let whole = add(most, distance_seen(is_cut, ridge, midpoint(ridge, other)));
-    return with_own_sides(Lengths(whole, whole, sides), sides);
+    let ridge = midpoint(a, d);
+    let twist = apart(ridge, midpoint(ridge, midpoint(b, c)));
+    return mul(add(most, twist), pixels_at(max(nearest, measured_from())));
+}
+
+// The control points of a side of a part of a patch.
+fn side_line(part: Net, side: u32) -> Line {
+    var line: Line;
+    for (var k = 0u; k < 4u; k++) {
+        line.points[k] = net_point(part, side_point(side, k));
+    }
+    return line;
 }
 
 // How far a line is from its chord.
 fn line_flatness(line: Line) -> f32 {
-    var points = line.points;
-    let from_b = distance_seen(false, points[1], raised(points[0], points[3], 1u));
-    let from_c = distance_seen(false, points[2], raised(points[0], points[3], 2u));
-    return mul(LINE_SHARE, max(from_b, from_c));
+    let a = line.points[0];
+    let b = line.points[1];
+    let c = line.points[2];
+    let d = line.points[3];
+    let most = max(apart(b, raised(a, d, 1u)), apart(c, raised(a, d, 2u)));
+    let nearest = min(min(before_eye(a), before_eye(d)), min(before_eye(b), before_eye(c)));
+    return mul(most, pixels_at(max(nearest, measured_from())));
 }
 
-// How far a line inside a Gregory patch is from its chord, from five points of it, a quarter of it apart.
-fn chord_flatness(line: array<vec3<f32>, 5>) -> f32 {
-    let half = midpoint(line[0], line[4]);
-    let from_b = distance_seen(false, line[1], midpoint(line[0], half));
-    let from_d = distance_seen(false, line[3], midpoint(line[4], half));
-    let most = max(max(from_b, from_d), distance_seen(false, line[2], half));
-    return mul(LINE_SHARE, add(most, mul(most, QUARTER)));
+// How many times as flat as a surface a line must be of which a piece 2^bits units long is looked at.
+fn strictness(bits: u32) -> f32 {
+    return add(2.0, mul(LINE_SHARE, float(i32(bits))));
 }
 
-// What of a surface has to be flat: all that its vertices enclose, those too that have strayed from it.
-fn enclosed(surface: Surface) -> vec4<u32> {
-    var range = range_of(surface);
-    for (var corner = 0u; corner < 4u; corner++) {
-        let at = corner_at(surface, corner);
-        range.x = select(range.x, at.x, at.x < range.x);
-        range.z = select(range.z, at.y, at.y < range.z);
+// The range around three vertices.
+fn range_around(a: vec2<u32>, b: vec2<u32>, c: vec2<u32>) -> vec4<u32> {
+    let low = lower(a, lower(b, c));
+    let high = higher(a, higher(b, c));
+    return vec4<u32>(low.x, high.x, low.y, high.y);
+}
+
+fn lower(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
+    return select(b, a, a < b);
+}
+
+fn higher(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
+    return select(b, a, a > b);
+}
+
+// Pixels that a length of 1 has at most in the image, so far before the eye, whichever way it lies.
+fn pixels_at(before: f32) -> f32 {
+    let corner = vec3<f32>(frame.focal, frame.centre_x, frame.centre_y);
+    return mul(sqrt(dot3(corner, corner)), recip(before));
+}
+
+// How far before the eye a point is; if the mesh is to be whole, as if the eye had turned to it.
+fn before_eye(point: vec3<f32>) -> f32 {
+    let before = neg(point.z);
+    if !is_whole() {
+        return before;
     }
-    return range;
+    return max(before, mul(largest3(point), frame.around));
 }
 
-fn net_corner(net: Net, l: u32) -> vec3<f32> {
+fn net_point(net: Net, l: u32) -> vec3<f32> {
     return vec3<f32>(net.x[l], net.y[l], net.z[l]);
 }
 
@@ -84,14 +100,7 @@ fn midpoint(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
     return scale3(add3(a, b), 0.5);
 }
 
-// Distance of two points on screen.
-fn distance_seen(is_cut: bool, a: vec3<f32>, b: vec3<f32>) -> f32 {
-    return distance_of(point_seen(is_cut, a), point_seen(is_cut, b));
-}
-
-fn point_seen(is_cut: bool, point: vec3<f32>) -> vec3<f32> {
-    if is_cut {
-        return point_if_cut(point);
-    }
-    return measured_point(point);
+// Distance of two points in eye space.
+fn apart(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    return distance_of(a, b);
 }

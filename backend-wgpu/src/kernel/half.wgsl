@@ -19,6 +19,11 @@ fn is_outer(surface: Surface, side: u32) -> bool {
     return chosen(range.zwxy, side) == (side & 1u) * PARAM_ONE;
 }
 
+// Which of a patch's control points is number k of those of a side.
+fn side_point(side: u32, k: u32) -> u32 {
+    return select(12u * (side & 1u) + k, 3u * (side & 1u) + 4u * k, side < 2u);
+}
+
 // Control points of a piece of a line, in eye space.
 struct Line {
     points: array<vec3<f32>, 4>,
@@ -34,13 +39,11 @@ fn half_line(word: u32, object: u32, low: u32, high: u32) -> Line {
     let b = select(to_high.y, to_high.x, side < 2u);
     let is_turned = a > b;
     var weights = blossom(select(a, b, is_turned), select(b, a, is_turned));
-    let first = select(12u, 3u, side < 2u) * (side & 1u);
-    let step = select(1u, 4u, side < 2u);
     var x: vec4<f32>;
     var y: vec4<f32>;
     var z: vec4<f32>;
     for (var k = 0u; k < 4u; k++) {
-        let point = point_to_eye(object, control_point(patch_id, first + k * step));
+        let point = point_to_eye(object, control_point(patch_id, side_point(side, k)));
         x[k] = point.x;
         y[k] = point.y;
         z[k] = point.z;

@@ -51,7 +51,7 @@ fn divide(surface: Surface, lengths: Lengths, code: u32) -> vec4<u32> {
 fn divide_side(surface: Surface, side: u32, length: f32, code: u32) -> u32 {
     let known = chosen(sides_of(surface), side);
     let bits = extent_of(surface, side).bits;
-    let is_last = code == DRAW_LIMITED || (length <= frame.bound && !is_to_be_halved(surface, side));
+    let is_last = code == DRAW_LIMITED || (length <= frame.bound && !stays_live(surface, side));
     let is_short = is_last && (frame.flags & FLAG_NAIVE) == 0u;
     let is_live = unpacked(known).steps == 0u;
     return select(known, packed(Side(steps_of(length), bits)), is_live && is_short);
