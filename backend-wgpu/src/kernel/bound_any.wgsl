@@ -42,18 +42,14 @@ fn position_any(hull: Hull, u: u32, v: u32) -> vec3<f32> {
     if IS_RATIONAL {
         return rational_position(WEIGHTS, hull.whole, u, v);
     }
-    let at = vec2<u32>(u, v);
-    let side = joined_side(KIND, at);
+    let side = joined_side(KIND, vec2<u32>(u, v));
     if side < 4u {
-        return joined_position(owner_word(RECORD, side), side, at);
+        // Of the larger patch only the side matters, and of that one point.
+        let along = select(v, u, side < 2u);
+        var line = half_line(owner_word(RECORD, side), OBJECT, along, along);
+        return line.points[0];
     }
     return position_at(hull.whole, u, v);
-}
-
-// On a larger patch, given the word of the side that is half of a side of it.
-fn joined_position(word: u32, side: u32, at: vec2<u32>) -> vec3<f32> {
-    let there = joined_place(word, side, at);
-    return position_at(in_eye_space((word >> OWNER_SHIFT) - 1u, OBJECT), there.x, there.y);
 }
 
 // Mirrors core/src/kernel/dice_gregory.rs (evaluate_gregory): the point alone.
@@ -85,67 +81,72 @@ fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
     return with_own_sides(lengths_of_polygons(polygons_u(followed), polygons_v(followed)), sides);
 }
 
-// How far a surface and its sides are from being flat.
+// How far a surface and its sides are from being flat. What has to be looked at for that is numbered, so that compilers
+// see it once: 0 to 3 are sides; 4 to 7 what the vertices of a side enclose; 8 and 9 what those of both triangles do, or,
+// if no corner has strayed, 8 is the whole surface.
 fn flatness_of(surface: Surface, hull: Hull) -> Lengths {
-    var sides: vec4<f32>;
-    for (var side = 0u; side < 4u; side++) {
-        sides[side] = mul(side_strictness(surface, side), line_flatness(line_of(surface, hull, side)));
+    let is_astray = strayed_corners(surface) != 0u;
+    var sides = vec4<f32>(0.0, 0.0, 0.0, 0.0);
+    var whole = 0.0;
+    for (var part = 0u; part < 10u; part++) {
+        if is_looked_at(surface, part) {
+            let off = part_off(surface, hull, part);
+            let side = part & 3u;
+            let strict = mul(side_strictness(surface, side), off);
+            sides = select(sides, with_side(sides, side, max(strict, side_length(sides, side))), part < 8u);
+            whole = select(max(whole, off), whole, part < 8u);
+        }
     }
-    if strayed_corners(surface) != 0u {
-        return flatness_astray(surface, hull, sides);
+    // Vertices may be anywhere in what they enclose, so all of it has to be twice as flat.
+    whole = select(whole, mul(2.0, whole), is_astray);
+    return with_own_sides(Lengths(whole, whole, sides), sides);
+}
+
+// Live sides that begin or end with a corner that has strayed are looked at twice.
+fn is_looked_at(surface: Surface, part: u32) -> bool {
+    let strayed = strayed_corners(surface);
+    if part < 4u || part == 8u {
+        return true;
     }
+    let corners = (1u << first_corner(part & 3u)) | (1u << last_corner(part & 3u));
+    let is_live = side_of(surface, part & 3u).steps == 0u;
+    return (part == 9u || is_live) && (strayed & select(corners, 15u, part == 9u)) != 0u;
+}
+
+// How far part of what has to be flat is from being so.
+fn part_off(surface: Surface, hull: Hull, part: u32) -> f32 {
     var net = hull.part;
     if IS_GREGORY {
         net = FOLLOWER;
     }
-    let whole = part_flatness(net);
-    return with_own_sides(Lengths(whole, whole, sides), sides);
+    if (IS_GREGORY && part < 4u) || (part > 3u && strayed_corners(surface) != 0u) {
+        net = between_any(hull, range_of_part(surface, part));
+    }
+    if part > 3u {
+        return part_flatness(net);
+    }
+    var line = side_line(net, part);
+    if is_half_line(surface, part) {
+        line = half_line_of(surface, part);
+    }
+    return line_flatness(line);
 }
 
-// Control points of a side. Those inside a Gregory patch are found each by itself: a surface's own net, which is another
-// one on the other side of a line, has no part in it.
-fn line_of(surface: Surface, hull: Hull, side: u32) -> Line {
-    if is_half_line(surface, side) {
-        return half_line_of(surface, side);
-    }
-    var net = hull.part;
-    if IS_GREGORY {
-        let first = seeming_corner(surface, first_corner(side));
-        let last = seeming_corner(surface, last_corner(side));
-        net = between_any(hull, range_around(first, last, last));
-    }
-    return side_line(net, side);
-}
-
-// What is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it, so all of
-// it has to be twice as flat. The same goes for live sides that begin or end with such a corner.
-fn flatness_astray(surface: Surface, hull: Hull, own: vec4<f32>) -> Lengths {
-    var sides = own;
-    var most = 0.0;
-    for (var part = 0u; part < 6u; part++) {
-        let corners = corners_around(part);
-        let has_strayed = (strayed_corners(surface) & ((1u << corners.x) | (1u << corners.z))) != 0u;
-        if part > 3u || (has_strayed && side_of(surface, part).steps == 0u) {
-            let range = range_around(
-                corner_at(surface, corners.x), corner_at(surface, corners.y), corner_at(surface, corners.z));
-            let off = part_flatness(between_any(hull, range));
-            if part > 3u {
-                most = max(most, mul(2.0, off));
-            } else {
-                sides[part] = max(sides[part], mul(side_strictness(surface, part), off));
-            }
-        }
-    }
-    return with_own_sides(Lengths(most, most, sides), sides);
-}
-
-// The corners of a part that has to be flat: of a side, which has the last one twice, or, from number 4 on, of one of
-// both triangles.
-fn corners_around(part: u32) -> vec3<u32> {
+// Lines inside a Gregory patch are found each by itself: a surface's own net, which is another one on the other side of a
+// line, has no part in it.
+fn range_of_part(surface: Surface, part: u32) -> vec4<u32> {
+    let first = first_corner(part & 3u);
+    let last = last_corner(part & 3u);
     if part < 4u {
-        return vec3<u32>(first_corner(part), last_corner(part), last_corner(part));
+        let end = seeming_corner(surface, last);
+        return range_around(seeming_corner(surface, first), end, end);
     }
-    return select(vec3<u32>(0u, 3u, 2u), vec3<u32>(0u, 1u, 3u), part == 4u);
+    var corners = vec3<u32>(first, last, last);
+    if part > 7u {
+        corners = select(vec3<u32>(0u, 3u, 2u), vec3<u32>(0u, 1u, 3u), part == 8u);
+    }
+    return range_around(
+        corner_at(surface, corners.x), corner_at(surface, corners.y), corner_at(surface, corners.z));
 }
 
 // How many times as flat as a surface one of its sides has to be: the same for whoever has it.
@@ -156,14 +157,18 @@ fn side_strictness(surface: Surface, side: u32) -> f32 {
 
 // Control points of a part of the patch, or of a Bezier patch that is nearly the same there.
 fn between_any(hull: Hull, range: vec4<u32>) -> Net {
+    var net = hull.whole;
+    if IS_GREGORY {
+        net = centre_inner(FACES, net, range, false).net;
+    }
+    net = net_between(net, range);
     if IS_RATIONAL {
-        return rational_between(WEIGHTS, hull.whole, range);
+        net = divided_by(net, WEIGHTS, range);
     }
     if IS_GREGORY {
-        let centred = centre_inner(FACES, hull.whole, range, false);
-        return follow(FACES, net_between(centred.net, range), range, false);
+        net = follow(FACES, net, range, false);
     }
-    return net_between(hull.whole, range);
+    return net;
 }
 
 // What becomes of a surface in view that is so long.
@@ -231,7 +236,7 @@ fn with_half_lines(surface: Surface, own: Lengths) -> Lengths {
     var sides = own.sides;
     for (var side = 0u; side < 4u; side++) {
         if is_half_line(surface, side) {
-            sides[side] = line_extent(half_line_of(surface, side));
+            sides = with_side(sides, side, line_extent(half_line_of(surface, side)));
         }
     }
     return with_own_sides(own, sides);
@@ -258,7 +263,7 @@ fn sides_of_gregory(net: Net, surface: Surface, lengths: vec4<f32>) -> vec4<f32>
     var out = lengths;
     for (var side = 0u; side < 4u; side++) {
         if is_live[side] && is_inside[side] {
-            out[side] = line_inside(net, surface, side);
+            out = with_side(out, side, line_inside(net, surface, side));
         }
     }
     return out;
@@ -306,32 +311,32 @@ fn around(place: f32, by: f32) -> Reach {
     return Reach(sub(place, by), add(place, by));
 }
 
-fn hull_of_gregory(whole: Net, surface: Surface) -> Hull {
-    let slack = mul(max(extent(whole), faces_extent(FACES)), ROUNDING);
-    let exchanged = (frame.flags & FLAG_WEBER) != 0u;
+// Of a rational patch, the control points of all of it are multiplied by their weights.
+fn hull_of_any(net: Net, surface: Surface) -> Hull {
     let range = range_of(surface);
-    let centred = centre_inner(FACES, whole, range, exchanged);
-    let part = net_between(centred.net, range);
-    FOLLOWER = follow(FACES, part, range, exchanged);
-    return Hull(centred.net, part, slack, centred.spread, centred.spread);
-}
-
-// Its patch's control points are multiplied by their weights.
-fn hull_of_rational(whole: Net, surface: Surface) -> Hull {
-    // Numerator and denominator each round, and so does the quotient.
-    let slack = mul(mul(extent(whole), ROUNDING), 4.0);
-    let weighted = homogeneous(WEIGHTS, whole);
-    return Hull(weighted, rational_between(WEIGHTS, weighted, range_of(surface)), slack, 0.0, 0.0);
-}
-
-fn hull_of_any(whole: Net, surface: Surface) -> Hull {
-    if IS_GREGORY {
-        return hull_of_gregory(whole, surface);
-    }
+    let exchanged = (frame.flags & FLAG_WEBER) != 0u;
+    var whole = net;
+    var slack = mul(extent(net), ROUNDING);
+    var spread = 0.0;
     if IS_RATIONAL {
-        return hull_of_rational(whole, surface);
+        whole = homogeneous(WEIGHTS, net);
+        // Numerator and denominator each round, and so does the quotient.
+        slack = mul(slack, 4.0);
     }
-    return hull_of_bezier(whole, surface);
+    if IS_GREGORY {
+        let centred = centre_inner(FACES, net, range, exchanged);
+        whole = centred.net;
+        slack = mul(max(extent(net), faces_extent(FACES)), ROUNDING);
+        spread = centred.spread;
+    }
+    var part = net_between(whole, range);
+    if IS_RATIONAL {
+        part = divided_by(part, WEIGHTS, range);
+    }
+    if IS_GREGORY {
+        FOLLOWER = follow(FACES, part, range, exchanged);
+    }
+    return Hull(whole, part, slack, spread, add(spread, REACH));
 }
 
 // The pixels that drawing the surface inside a hull can touch.
@@ -358,8 +363,7 @@ fn bound_any(surface: Surface) -> Verdict {
         WEIGHTS = weights_of(more);
     }
     let whole = in_eye_space(RECORD, OBJECT);
-    var hull = hull_of_any(whole, surface);
-    hull.spread = add(hull.apart, REACH);
+    let hull = hull_of_any(whole, surface);
     if (frame.flags & FLAG_WEBER) != 0u {
         return bound_weber(surface, whole, hull, more != 0u);
     }

@@ -23,10 +23,19 @@ fn part_flatness(part: Net) -> f32 {
 // The control points of a side of a part of a patch.
 fn side_line(part: Net, side: u32) -> Line {
     var line: Line;
-    for (var k = 0u; k < 4u; k++) {
-        line.points[k] = net_point(part, side_point(side, k));
-    }
+    line.points[0] = point_of_side(part, side, vec4<u32>(0u, 3u, 0u, 12u));
+    line.points[1] = point_of_side(part, side, vec4<u32>(4u, 7u, 1u, 13u));
+    line.points[2] = point_of_side(part, side, vec4<u32>(8u, 11u, 2u, 14u));
+    line.points[3] = point_of_side(part, side, vec4<u32>(12u, 15u, 3u, 15u));
     return line;
+}
+
+// One of four points, a side each; chosen rather than indexed, since what lies in registers has no index.
+fn point_of_side(part: Net, side: u32, at: vec4<u32>) -> vec3<f32> {
+    let is_last = (side & 1u) != 0u;
+    let along_u = select(net_point(part, at.x), net_point(part, at.y), is_last);
+    let along_v = select(net_point(part, at.z), net_point(part, at.w), is_last);
+    return select(along_v, along_u, side < 2u);
 }
 
 // How far a line is from its chord.

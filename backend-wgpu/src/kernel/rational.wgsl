@@ -25,9 +25,9 @@ fn homogeneous(weights: Weights, net: Net) -> Net {
     return out;
 }
 
-// Control points of a part of a patch that is given as `homogeneous`, not multiplied by their weights.
-fn rational_between(weights: Weights, weighted: Net, range: vec4<u32>) -> Net {
-    var part = net_between(weighted, range);
+// Control points of a part of a patch, not multiplied by their weights, given them multiplied.
+fn divided_by(weighted: Net, weights: Weights, range: vec4<u32>) -> Net {
+    var part = weighted;
     var w = combine_v(combine_u(weights.at, blossom(range.x, range.y)), blossom(range.z, range.w));
     for (var l = 0u; l < 16u; l++) {
         let scale = recip(w[l]);

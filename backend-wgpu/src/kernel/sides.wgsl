@@ -22,6 +22,16 @@ fn with_own_sides(lengths: Lengths, sides: vec4<f32>) -> Lengths {
     );
 }
 
+// Lengths of sides with another one of this side.
+fn with_side(sides: vec4<f32>, side: u32, length: f32) -> vec4<f32> {
+    return select(sides, vec4<f32>(length), vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(side));
+}
+
+fn side_length(sides: vec4<f32>, side: u32) -> f32 {
+    let pair = select(sides.xy, sides.zw, side > 1u);
+    return select(pair.x, pair.y, (side & 1u) != 0u);
+}
+
 fn longest(all: vec4<f32>) -> f32 {
     return max(max(all.x, all.y), max(all.z, all.w));
 }
