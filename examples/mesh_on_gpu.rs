@@ -70,7 +70,7 @@ fn tessellated(
     device: &mut WgpuDevice,
     seen: &DeviceScene,
 ) -> Result<MeshBuffers<WgpuBuffer>, Box<dyn Error>> {
-    let patches = micropoly::core::patch::gregory::patch_count(&seen.patches) as u32;
+    let patches = seen.patch_count as u32;
     let records = seen.patches.len() as u32;
     let plan = FramePlan::new(seen.frame, patches, seen.objects.len() as u32, 4096)?;
     let sizes = micropoly::core::memory::Sizes { records, ..*plan.sizes() };

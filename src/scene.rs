@@ -5,15 +5,16 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use micropoly_core::abi::{FLAG_INSTANCES, FLAG_LAYERS, Frame, MAX_COORDINATE, Object, Patch};
-use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Profile};
+use micropoly_core::camera::{Camera, FrameOptions, Light, Material, Oracle, Profile};
 use micropoly_core::displacement::{Displacement, Unfit};
 
 use crate::error::{Error, Result};
+use crate::geometry::{self, ReadProgress, Reading};
 use crate::path::CameraPath;
 use crate::records::Shapes;
 use crate::shape::Shape;
 use crate::shot::Blur;
-use crate::{bpt, mscene, scene_file};
+use crate::{mscene, rib, scene_file};
 
 /// Patches that share a transform and a material.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,6 +87,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The objects.
     pub objects: Vec<SceneObject>,
+    /// What of the file is not drawn as it says, for whoever reads it.
+    pub notes: Vec<String>,
 }
 
 /// A scene as devices read it.
@@ -95,8 +98,10 @@ pub struct DeviceScene {
     pub frame: Frame,
     /// Transforms and materials.
     pub objects: Vec<Object>,
-    /// All patches, object by object, and behind them the face points of Gregory patches, a record each.
+    /// Records of all patches, shape by shape, and behind them what some kinds of patches need besides.
     pub patches: Vec<Patch>,
+    /// Number of patches: more than there are records of them where objects have the same ones.
+    pub patch_count: usize,
 }
 
 impl SceneObject {
@@ -150,23 +155,42 @@ impl SceneObject {
 }
 
 impl Scene {
-    /// Reads a scene file (`.toml` or `.mscene`), or a patch file (`.bpt`) with a camera that shows all of it.
+    /// Reads a scene file (`.toml`, `.mscene` or `.rib`), or a file of geometry (`.obj` or `.bpt`) with a camera that shows
+    /// all of it.
     ///
     /// # Errors
     /// [`Error::Read`], [`Error::Format`] with file and line, [`Error::Content`] with file and what in it, or
     /// [`Error::Scene`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
+        Self::load_with(path, &Reading::default(), &|_| {})
+    }
+
+    /// As [`Scene::load`], with a say in how cages are read; `progress` is told which share of a cage has been refined.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load_with(path: impl AsRef<Path>, reading: &Reading, progress: ReadProgress<'_>) -> Result<Self> {
         let path = path.as_ref();
         match path.extension().and_then(|extension| extension.to_str()) {
-            Some("bpt") => Self::around(path.display().to_string(), Shape::of_bezier(bpt::load(path)?)),
-            Some("toml") => scene_file::load(path),
+            Some(kind @ ("bpt" | "obj")) => {
+                let mut notes = Vec::new();
+                let shape = geometry::read(path, reading, progress, &mut notes)?;
+                // What writes OBJ files takes y for up, mostly.
+                let up = if kind == "obj" { DVec3::Y } else { DVec3::Z };
+                Ok(Self { notes, ..Self::around_upright(path.display().to_string(), shape, up)? })
+            }
+            Some("toml") => scene_file::load_with(path, reading, progress),
             Some("mscene") => mscene::load(path),
+            Some("rib") => rib::load_scene(path, reading.cage.levels),
             _ if !path.exists() => {
                 let source = std::io::Error::from(std::io::ErrorKind::NotFound);
                 Err(Error::Read { path: path.to_owned(), source })
             }
             _ => Err(Error::scene(
-                format!("{}: a scene file ends in .toml or .mscene, a patch file in .bpt", path.display()),
+                format!(
+                    "{}: a scene file ends in .toml, .mscene or .rib, a file of geometry in .obj or .bpt",
+                    path.display()
+                ),
                 "rename the file, or convert it",
             )),
         }
@@ -177,13 +201,19 @@ impl Scene {
     /// # Errors
     /// [`Error::Scene`] if the patches lie too far out to be seen at all.
     pub fn around(name: String, shape: Shape) -> Result<Self> {
+        Self::around_upright(name, shape, DVec3::Z)
+    }
+
+    /// The same, where another axis is up.
+    fn around_upright(name: String, shape: Shape, up: DVec3) -> Result<Self> {
         let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5, opacity: 1.0 };
         let objects = vec![SceneObject::new(shape, material)];
         let (low, high) = bounds_of(&objects);
         let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
         let radius = if radius > 0.0 { radius } else { 1.0 };
-        let eye = middle + DVec3::new(0.5, -0.75, 0.45).normalize() * radius * 3.0;
-        let camera = Camera::look_at(eye, middle, DVec3::Z, 40.0, radius * 0.01)
+        let front = up.cross(DVec3::X);
+        let eye = middle + (DVec3::X * 0.5 - front * 0.75 + up * 0.45).normalize() * radius * 3.0;
+        let camera = Camera::look_at(eye, middle, up, 40.0, radius * 0.01)
             .ok_or_else(|| Error::scene("the patches lie too far out", "scale them down"))?;
         let to_light = camera.view.inverse().transform_vector3(DVec3::new(-0.5, 0.8, 0.9));
         Ok(Self {
@@ -195,6 +225,7 @@ impl Scene {
             ambient: Vec3::splat(0.15),
             lights: vec![Light::Directional { to_light, colour: Vec3::splat(0.9) }],
             objects,
+            notes: Vec::new(),
         })
     }
 
@@ -229,6 +260,12 @@ impl Scene {
     #[must_use]
     pub fn gregory_count(&self) -> usize {
         self.objects.iter().map(|object| object.shape.gregory.len()).sum()
+    }
+
+    /// Number of rational patches among them.
+    #[must_use]
+    pub fn rational_count(&self) -> usize {
+        self.objects.iter().map(|object| object.shape.rational.len()).sum()
     }
 
     /// Corners of the box around all control points, in world space.
@@ -296,11 +333,30 @@ impl Scene {
         for object in &self.objects {
             object.check_displacement().map_err(|(problem, remedy)| Error::scene(problem, remedy))?;
         }
+        if options.oracle == Oracle::Flatness {
+            return self.check_flatness(options);
+        }
         if self.is_displaced() && options.profile == Profile::Weber2014 {
             let problem = "an object is displaced, which the rules of Weber's program do not know";
             return Err(Error::scene(problem, "leave out --profile weber2014, or the displacement"));
         }
         Ok(())
+    }
+
+    fn check_flatness(&self, options: &FrameOptions) -> Result<()> {
+        let problem = if self.is_displaced() {
+            "an object is displaced, and bumps are not looked at where surfaces are to be flat"
+        } else if options.profile == Profile::Weber2014 {
+            "the rules of Weber's program do not ask whether surfaces are flat"
+        } else if !(options.tolerance > 0.0 && options.tolerance <= 1.0e6) {
+            return Err(Error::scene(
+                format!("a tolerance of {} pixels is not possible", options.tolerance),
+                "choose one above 0, up to 1000000",
+            ));
+        } else {
+            return Ok(());
+        };
+        Err(Error::scene(problem, "use --oracle size"))
     }
 
     /// The scene as devices read it.
@@ -314,7 +370,8 @@ impl Scene {
     /// As [`Scene::for_device`], with another camera.
     pub(crate) fn seen_from(&self, camera: &Camera, options: &FrameOptions) -> Result<DeviceScene> {
         let (frame, objects) = self.view(camera, 0.0, options)?;
-        Ok(DeviceScene { frame, objects, patches: self.device_patches() })
+        let (patches, patch_count) = (self.device_patches(), self.patch_count());
+        Ok(DeviceScene { frame, objects, patches, patch_count })
     }
 
     /// What of a scene depends on the camera and on time, in frames, as devices read it.

@@ -1,6 +1,6 @@
 //! Scene files: TOML, written by hand. `README.md` shows every field.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
@@ -10,14 +10,19 @@ use micropoly_core::displacement::Displacement;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::cage::{Boundary, MOST_LEVELS};
 use crate::error::{Error, Result, line_at, read_text, utf8};
 use crate::generate::{self, Generator};
+use crate::geometry::{self, ReadProgress, Reading};
 use crate::gregory::GregoryPatch;
 use crate::image::linear_from_srgb;
 use crate::path::{CameraKey, CameraPath};
 use crate::scene::{Motion, Scene, SceneObject, rotation};
 use crate::shape::{BezierPatch, Shape};
 use crate::shot::{Blur, DEFAULT_SENSOR, Lens};
+
+/// Most copies of an object.
+const MAX_COPIES: usize = 1_000_000;
 
 /// Most patches that the generators of a scene may make together.
 const MAX_GENERATED: u64 = 10_000_000;
@@ -82,8 +87,13 @@ struct ObjectTable {
     patches: Option<PatchList>,
     gregory: Option<PatchList>,
     generate: Option<Spanned<GenerateTable>>,
+    cc_levels: Option<Spanned<f64>>,
+    boundary: Option<BoundaryValue>,
+    polygons: Option<bool>,
     #[serde(default)]
     reverse: bool,
+    #[serde(default)]
+    copy: Vec<Spanned<PlaceTable>>,
     scale: Option<Spanned<ScaleValue>>,
     rotate: Option<Vector>,
     translate: Option<Vector>,
@@ -93,6 +103,34 @@ struct ObjectTable {
     opacity: Option<Spanned<f64>>,
     motion: Option<Spanned<MotionTable>>,
     displacement: Option<Spanned<DisplacementTable>>,
+}
+
+/// Where a copy of an object is, as seen from the object's own place.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlaceTable {
+    scale: Option<Spanned<ScaleValue>>,
+    rotate: Option<Vector>,
+    translate: Option<Vector>,
+}
+
+/// OpenSubdiv's names.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum BoundaryValue {
+    None,
+    EdgeOnly,
+    EdgeAndCorner,
+}
+
+impl From<BoundaryValue> for Boundary {
+    fn from(value: BoundaryValue) -> Self {
+        match value {
+            BoundaryValue::None => Self::None,
+            BoundaryValue::EdgeOnly => Self::EdgeOnly,
+            BoundaryValue::EdgeAndCorner => Self::EdgeAndCorner,
+        }
+    }
 }
 
 /// From one frame to the next.
@@ -140,12 +178,12 @@ enum ScaleValue {
     PerAxis([f64; 3]),
 }
 
-/// Reads a scene file and the patch files it names.
+/// Reads a scene file and the files of geometry it names.
 ///
 /// # Errors
 /// [`Error::Read`] or [`Error::Format`] with file and line.
-pub fn load(path: &Path) -> Result<Scene> {
-    parse(path, &read_text(path)?)
+pub(crate) fn load_with(path: &Path, reading: &Reading, progress: ReadProgress<'_>) -> Result<Scene> {
+    parse(path, &read_text(path)?, reading, progress)
 }
 
 /// Reads a scene from bytes; files that it names are looked for beside `path`.
@@ -153,11 +191,12 @@ pub fn load(path: &Path) -> Result<Scene> {
 /// # Errors
 /// [`Error::Read`] or [`Error::Format`] with file and line.
 pub fn parse_bytes(path: &Path, bytes: Vec<u8>) -> Result<Scene> {
-    parse(path, &utf8(path, bytes)?)
+    parse(path, &utf8(path, bytes)?, &Reading::default(), &|_| {})
 }
 
-fn parse(path: &Path, text: &str) -> Result<Scene> {
+fn parse(path: &Path, text: &str, reading: &Reading, progress: ReadProgress<'_>) -> Result<Scene> {
     let at = Place { path, text };
+    let mut files = Files { reading, progress, known: Vec::new(), notes: Vec::new() };
     let table: SceneTable = toml::from_str(text).map_err(|error| at.syntax(&error))?;
     if let Some(extra) = table.light.get(MAX_LIGHTS) {
         return Err(at.wrong(extra, format!("there are more than {MAX_LIGHTS} lights"), "remove some"));
@@ -165,7 +204,7 @@ fn parse(path: &Path, text: &str) -> Result<Scene> {
     at.check_generated(&table.object)?;
     let mut objects = Vec::with_capacity(table.object.len());
     for object in &table.object {
-        objects.push(at.object(object)?);
+        at.objects(object, &mut files, &mut objects)?;
     }
     if objects.is_empty() {
         return Err(Error::format(
@@ -184,7 +223,35 @@ fn parse(path: &Path, text: &str) -> Result<Scene> {
         ambient: at.colour(table.ambient.as_ref(), Vec3::splat(0.1))?,
         lights: table.light.iter().map(|light| at.light(light)).collect::<Result<_>>()?,
         objects,
+        notes: files.notes,
     })
+}
+
+/// A file, how it is read, and whether its back becomes the front.
+type FileKey = (PathBuf, Reading, bool);
+
+/// Files of geometry that have been read so far.
+struct Files<'a> {
+    reading: &'a Reading,
+    progress: ReadProgress<'a>,
+    known: Vec<(FileKey, Arc<Shape>)>,
+    notes: Vec<String>,
+}
+
+impl Files<'_> {
+    fn shape(&mut self, key: FileKey) -> Result<Arc<Shape>> {
+        if let Some((_, shape)) = self.known.iter().find(|(known, _)| *known == key) {
+            return Ok(Arc::clone(shape));
+        }
+        let (path, reading, is_reversed) = &key;
+        let mut shape = geometry::read(path, reading, self.progress, &mut self.notes)?;
+        if *is_reversed {
+            shape.reverse();
+        }
+        let shape = Arc::new(shape);
+        self.known.push((key, Arc::clone(&shape)));
+        Ok(shape)
+    }
 }
 
 /// The text that is read, for messages with a line.
@@ -344,54 +411,106 @@ impl Place<'_> {
         }
     }
 
-    fn object(&self, table: &Spanned<ObjectTable>) -> Result<SceneObject> {
-        let object = table.get_ref();
-        let mut shape = self.shape(table)?;
-        if object.reverse {
-            shape.reverse();
+    /// An object, and its copies.
+    fn objects(
+        &self,
+        table: &Spanned<ObjectTable>,
+        files: &mut Files<'_>,
+        objects: &mut Vec<SceneObject>,
+    ) -> Result<()> {
+        let first = self.object(table, files)?;
+        let copies = &table.get_ref().copy;
+        if let Some(extra) = copies.get(MAX_COPIES) {
+            return Err(self.wrong(extra, format!("there are more than {MAX_COPIES} copies"), "remove some"));
         }
-        let (to_world, material) = (self.transform(object)?, self.material(object)?);
+        objects.reserve(1 + copies.len());
+        objects.push(first.clone());
+        for copy in copies {
+            let PlaceTable { scale, rotate, translate } = copy.get_ref();
+            let place = self.transform(scale.as_ref(), rotate.as_ref(), translate.as_ref())?;
+            objects.push(SceneObject { to_world: place * first.to_world, ..first.clone() });
+        }
+        Ok(())
+    }
+
+    fn object(&self, table: &Spanned<ObjectTable>, files: &mut Files<'_>) -> Result<SceneObject> {
+        let object = table.get_ref();
+        let shape = match &object.geometry {
+            Some(file) if self.has_one_shape(object) => self.geometry(file, object, files)?,
+            _ => self.shape(table)?,
+        };
+        let ObjectTable { scale, rotate, translate, .. } = object;
+        let to_world = self.transform(scale.as_ref(), rotate.as_ref(), translate.as_ref())?;
+        let material = self.material(object)?;
         let displacement = object.displacement.as_ref().map(|table| {
             let DisplacementTable { height, frequency, octaves } = *table.get_ref();
             Displacement { height: height as f32, frequency: frequency as f32, octaves }
         });
         let motion = self.motion(object)?;
-        let made = SceneObject { shape: Arc::new(shape), to_world, material, displacement, motion };
+        let made = SceneObject { shape, to_world, material, displacement, motion };
         match (made.check_displacement(), &object.displacement) {
             (Err((problem, remedy)), Some(table)) => Err(self.wrong(table, problem, remedy)),
             _ => Ok(made),
         }
     }
 
-    fn shape(&self, table: &Spanned<ObjectTable>) -> Result<Shape> {
-        let ObjectTable { geometry, patches, gregory, generate, .. } = table.get_ref();
-        match (geometry, patches, gregory, generate) {
-            (Some(file), None, None, None) => Ok(Shape::of_bezier(self.geometry(file)?)),
-            (None, Some(list), None, None) => {
-                self.inline_patches(list, |points| BezierPatch { points }).map(Shape::of_bezier)
-            }
-            (None, None, Some(list), None) => {
-                self.inline_patches(list, |points| GregoryPatch { points }).map(Shape::of_gregory)
-            }
-            (None, None, None, Some(generator)) => self.generated(generator).map(Shape::of_bezier),
-            _ => {
-                let problem = "an object has exactly one of geometry, patches, gregory and generate";
-                Err(self.wrong(table, problem, "for example geometry = \"teapot.bpt\""))
-            }
-        }
+    /// Is its shape told in one way only?
+    fn has_one_shape(&self, object: &ObjectTable) -> bool {
+        object.patches.is_none() && object.gregory.is_none() && object.generate.is_none()
     }
 
-    fn geometry(&self, file: &Spanned<String>) -> Result<Vec<BezierPatch>> {
+    /// The shape of an object that does not name a file.
+    fn shape(&self, table: &Spanned<ObjectTable>) -> Result<Arc<Shape>> {
+        let ObjectTable { geometry, patches, gregory, generate, reverse, .. } = table.get_ref();
+        let mut shape = match (geometry, patches, gregory, generate) {
+            (None, Some(list), None, None) => {
+                self.inline_patches(list, |points| BezierPatch { points }).map(Shape::of_bezier)?
+            }
+            (None, None, Some(list), None) => {
+                self.inline_patches(list, |points| GregoryPatch { points }).map(Shape::of_gregory)?
+            }
+            (None, None, None, Some(generator)) => self.generated(generator).map(Shape::of_bezier)?,
+            _ => {
+                let problem = "an object has exactly one of geometry, patches, gregory and generate";
+                return Err(self.wrong(table, problem, "for example geometry = \"teapot.bpt\""));
+            }
+        };
+        if *reverse {
+            shape.reverse();
+        }
+        Ok(Arc::new(shape))
+    }
+
+    /// The shape in a file; objects that read the same file in the same way have the same one.
+    fn geometry(
+        &self,
+        file: &Spanned<String>,
+        object: &ObjectTable,
+        files: &mut Files<'_>,
+    ) -> Result<Arc<Shape>> {
         let path = self.path.parent().unwrap_or(Path::new("")).join(file.get_ref());
-        if path.extension().is_none_or(|extension| extension != "bpt") {
-            let problem = format!("geometry \"{}\" is not a .bpt file", file.get_ref());
-            return Err(self.wrong(file, problem, "only Bézier patch files (.bpt) can be read so far"));
+        if !geometry::is_known(&path) {
+            let problem = format!("geometry \"{}\" is neither an .obj nor a .bpt file", file.get_ref());
+            return Err(self.wrong(file, problem, "convert it to one of them"));
         }
         if !path.is_file() {
             let problem = format!("geometry \"{}\" does not exist", path.display());
             return Err(self.wrong(file, problem, "paths are relative to the scene file"));
         }
-        crate::bpt::load(&path)
+        let key = (path, self.reading(object, files.reading)?, object.reverse);
+        files.shape(key)
+    }
+
+    /// How an object's file is read.
+    fn reading(&self, object: &ObjectTable, otherwise: &Reading) -> Result<Reading> {
+        let mut reading = *otherwise;
+        if let Some(levels) = &object.cc_levels {
+            let most = f64::from(MOST_LEVELS);
+            reading.cage.levels = self.number(levels, "cc_levels", 0.0, most)? as u32;
+        }
+        reading.boundary = object.boundary.map(Boundary::from).or(reading.boundary);
+        reading.polygons = object.polygons.unwrap_or(reading.polygons);
+        Ok(reading)
     }
 
     fn inline_patches<const POINTS: usize, P>(
@@ -444,20 +563,25 @@ impl Place<'_> {
         Ok(generate::generate(kind, count, seed))
     }
 
-    fn transform(&self, object: &ObjectTable) -> Result<DAffine3> {
-        let scale = match object.scale.as_ref().map(|scale| (scale, scale.get_ref())) {
+    fn transform(
+        &self,
+        scale: Option<&Spanned<ScaleValue>>,
+        rotate: Option<&Vector>,
+        translate: Option<&Vector>,
+    ) -> Result<DAffine3> {
+        let factors = match scale.map(Spanned::get_ref) {
             None => DVec3::ONE,
-            Some((_, &ScaleValue::Uniform(factor))) => DVec3::splat(factor),
-            Some((_, &ScaleValue::PerAxis(factors))) => DVec3::from(factors),
+            Some(&ScaleValue::Uniform(factor)) => DVec3::splat(factor),
+            Some(&ScaleValue::PerAxis(factors)) => DVec3::from(factors),
         };
-        if let Some(value) = &object.scale
-            && !(scale.is_finite() && scale.abs().max_element() <= 1.0e12)
+        if let Some(value) = scale
+            && !(factors.is_finite() && factors.abs().max_element() <= 1.0e12)
         {
             return Err(self.wrong(value, "the scale is not finite or beyond 1e12", "use a smaller number"));
         }
-        let angles = object.rotate.as_ref().map_or(Ok(DVec3::ZERO), |rotate| self.vector(rotate))?;
-        let translation = object.translate.as_ref().map_or(Ok(DVec3::ZERO), |t| self.vector(t))?;
-        Ok(DAffine3::from_mat3_translation(rotation(angles) * DMat3::from_diagonal(scale), translation))
+        let angles = rotate.map_or(Ok(DVec3::ZERO), |rotate| self.vector(rotate))?;
+        let translation = translate.map_or(Ok(DVec3::ZERO), |translate| self.vector(translate))?;
+        Ok(DAffine3::from_mat3_translation(rotation(angles) * DMat3::from_diagonal(factors), translation))
     }
 
     fn material(&self, object: &ObjectTable) -> Result<Material> {

@@ -1,5 +1,6 @@
 //! Shapes: the patches of a mesh, in the space of its objects; any number of objects may have the same one.
 
+use crate::cage::Patches;
 use crate::gregory::GregoryPatch;
 
 /// A bicubic Bézier patch: 16 control points, index `4·i + j` with `i` along u.
@@ -124,6 +125,12 @@ impl Shape {
         self.rational.iter_mut().for_each(RationalPatch::reverse);
         self.gregory.iter_mut().for_each(GregoryPatch::reverse);
         self.halves.iter_mut().for_each(HalfSide::reverse);
+    }
+}
+
+impl From<Patches> for Shape {
+    fn from(Patches { bezier, gregory, halves, .. }: Patches) -> Self {
+        Self { bezier, gregory, halves, ..Self::default() }
     }
 }
 

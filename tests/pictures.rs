@@ -45,6 +45,7 @@ fn before_the_camera(objects: Vec<SceneObject>) -> Scene {
         ambient: Vec3::ONE,
         lights: Vec::new(),
         objects,
+        notes: Vec::new(),
     }
 }
 

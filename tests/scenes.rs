@@ -44,6 +44,7 @@ fn ball(camera: Camera) -> Scene {
         ambient: glam::Vec3::splat(0.5),
         lights: vec![Light::Point { position: glam::DVec3::ZERO, colour: glam::Vec3::splat(0.5) }],
         objects: vec![SceneObject::new(Shape::of_bezier(patches), material)],
+        notes: Vec::new(),
     }
 }
 

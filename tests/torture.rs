@@ -35,6 +35,7 @@ fn extreme_scene(random: &mut fastrand::Rng) -> Option<Scene> {
         ambient: glam::Vec3::splat(0.1),
         lights: vec![light],
         objects: vec![SceneObject::new(Shape::of_bezier(patches), material)],
+        notes: Vec::new(),
     })
 }
 

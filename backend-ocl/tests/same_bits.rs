@@ -44,6 +44,7 @@ fn case(scene: &str, options: &FrameOptions) -> Case {
         frame: device.frame,
         objects: device.objects,
         patches: device.patches,
+        patch_count: device.patch_count,
     }
 }
 

@@ -6,7 +6,6 @@ use micropoly_core::abi::{Colour, Frame, Object, Patch, Pixel, Sample, Tap};
 use micropoly_core::backend::Device;
 use micropoly_core::error::PlanError;
 use micropoly_core::memory::{Area, Sizes, stack_min};
-use micropoly_core::patch::gregory::patch_count;
 use micropoly_core::pattern::Samples;
 use micropoly_core::reconstruction::{Filter, MAX_TAPS};
 use micropoly_core::render::{Buffers, Counts, FramePlan};
@@ -27,8 +26,10 @@ pub struct Case {
     pub frame: Frame,
     /// Transforms and materials.
     pub objects: Vec<Object>,
-    /// All patches, and behind them the face points of Gregory patches.
+    /// Records of all patches, and behind them what some kinds of patches need besides.
     pub patches: Vec<Patch>,
+    /// Number of patches: more than there are records of them where objects have the same ones.
+    pub patch_count: usize,
 }
 
 impl Case {
@@ -39,9 +40,8 @@ impl Case {
     pub fn plan(&self, schedule: Schedule) -> Result<FramePlan, PlanError> {
         let Schedule { scheduler, batch, capacity } = schedule;
         let count = |len: usize| u32::try_from(len).unwrap_or(u32::MAX);
-        let patches = patch_count(&self.patches);
-        let records = count(self.patches.len());
-        let (patches, objects) = (count(patches), count(self.objects.len()));
+        let (patches, records) = (count(self.patch_count), count(self.patches.len()));
+        let objects = count(self.objects.len());
         let frame = self.filtered();
         let Frame { levels, width, height, .. } = frame;
         let area = Area::of(&frame);

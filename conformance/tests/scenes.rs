@@ -9,31 +9,59 @@ mod common;
 use common::{devices, report};
 use micropoly::devices::{Job, with_device};
 use micropoly::looks::Look;
-use micropoly::{Backend, FrameOptions, Scene};
+use micropoly::{Backend, FrameOptions, Oracle, Scene};
 use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::backend::Device;
 use micropoly_core::known::{Mismatch, check};
 
-const SCENES: [&str; 6] = ["teapot", "eyesplit", "spheres", "still-life", "gregory", "displaced"];
+const SCENES: [&str; 9] = [
+    "teapot.toml",
+    "eyesplit.toml",
+    "spheres.toml",
+    "still-life.toml",
+    "gregory.toml",
+    "displaced.toml",
+    "copies.toml",
+    "shapes.rib",
+    FLAT,
+];
+/// The shapes again, split until they are flat.
+const FLAT: &str = "shapes.rib, flat";
 /// Scenes that are also rendered as pictures are: with several samples a pixel, by both rasterisers, in parts, with all that
 /// blurs them and can be seen through in them.
-const PICTURES: [&str; 9] =
-    ["teapot", "eyesplit", "spheres", "still-life", "gregory", "displaced", "glass", "spinning", "focus"];
+const PICTURES: [&str; 11] = [
+    "teapot.toml",
+    "eyesplit.toml",
+    "spheres.toml",
+    "still-life.toml",
+    "gregory.toml",
+    "displaced.toml",
+    "glass.toml",
+    "spinning.toml",
+    "focus.toml",
+    "copies.toml",
+    "shapes.rib",
+];
 const SIZES: [(u32, u32); 3] = [(160, 90), (320, 180), (640, 360)];
 /// One more, where it is not a matter of minutes: not on devices that only pretend to be a GPU.
 const LARGE: (u32, u32) = (1280, 720);
 const BATCHES: [u32; 3] = [500, 4096, 100_000];
 
+fn load(file: &str) -> Scene {
+    Scene::load(format!("{}/../scenes/{file}", env!("CARGO_MANIFEST_DIR"))).expect("a scene")
+}
+
 fn case(scene: &str, width: u32, height: u32) -> Case {
-    let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
-    let scene_file = Scene::load(path).expect("a scene");
-    let options = FrameOptions { width, height, ..FrameOptions::default() };
+    let scene_file = load(scene.trim_end_matches(", flat"));
+    let oracle = if scene == FLAT { Oracle::Flatness } else { Oracle::Size };
+    let options = FrameOptions { width, height, oracle, ..FrameOptions::default() };
     let device = scene_file.for_device(&options).expect("a drawable scene");
     Case {
-        name: format!("{scene}_{width}x{height}"),
+        name: format!("{}_{width}x{height}", scene.trim_end_matches(".toml")),
         frame: device.frame,
         objects: device.objects,
         patches: device.patches,
+        patch_count: device.patch_count,
     }
 }
 
@@ -120,8 +148,7 @@ impl Job for LookAtAll<'_> {
 #[test]
 fn both_rasterisers_give_the_same_pictures_on_every_device() {
     for name in PICTURES {
-        let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-        let scene = Scene::load(path).expect("a scene");
+        let scene = load(name);
         let mut expected: Vec<(Look, String)> = Vec::new(); // by the usual rasteriser of the first device, the CPU
         for (entry, _) in devices() {
             for (look, hash) in with_device(&entry, 2, LookAtAll(&scene)).expect("opens") {

@@ -102,10 +102,10 @@ shared_constants! {
     /// A patch whose sides are halves of others, or halved by others, is never halved more often than this: then places on
     /// pieces of its sides are multiples of two units.
     const JOINED_SPLITS: u32 = PARAM_BITS - PLACE_BITS - 1;
-    /// Lines have to be twice as flat as surfaces, and a little flatter for each halving that they have left. Where a line
-    /// has its steps already, vertices stray along it, and what they enclose is never flatter than the line: it must be
-    /// flat enough all the same, at twice what it is off; and so must lines that begin there, which are shorter.
-    const LINE_SHARE: f32 = 1.0 / 48.0;
+    /// For each halving that a piece of a line has left, it has to be so much flatter than surfaces. Where a line has its
+    /// steps already, vertices stray along it, and what they enclose is never flatter than the line: it must be flat enough
+    /// all the same; and so must lines that begin there, which are shorter.
+    const LINE_SHARE: f32 = 1.0 / 96.0;
     /// Smallest squared length of a vector that is normalised for shading.
     const SHADE_TINY: f32 = 1.0e-30;
 

@@ -80,9 +80,6 @@ impl Profile {
     }
 }
 
-/// Share of a tolerance that is left after what perspective may hide.
-const FLAT_SHARE: f32 = 0.875;
-
 /// When a surface is split no further.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Oracle {
@@ -280,10 +277,9 @@ impl FrameOptions {
         matches!(self.oracle, Oracle::Flatness)
     }
 
-    /// What [`Frame::bound`] is. Control points are compared on screen, as if perspective did not bend lines within a
-    /// surface; what that may hide is allowed for.
+    /// What [`Frame::bound`] is.
     fn largest(&self) -> f32 {
-        if self.is_flat() { self.tolerance * FLAT_SHARE } else { self.bound }
+        if self.is_flat() { self.tolerance } else { self.bound }
     }
 
     const fn most_rate(&self) -> u32 {

@@ -29,7 +29,7 @@ impl Case {
         };
         let (mut frame, object) = random_view(random, 0.05);
         frame.flags |= FLAG_FLAT;
-        (frame.bound, frame.rate, frame.density) = (0.875 * TOLERANCE, 1, 1.0);
+        (frame.bound, frame.rate, frame.density) = (TOLERANCE, 1, 1.0);
         Self { net: Net::in_eye_space(&patches[0], &object), frame, object, patches }
     }
 

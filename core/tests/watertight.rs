@@ -7,13 +7,18 @@ use std::collections::HashMap;
 
 use common::{between, random, view};
 use glam::{DVec3, Vec3};
-use micropoly_core::abi::{Draw, FLAG_FLAT, FLAG_NAIVE, FLAG_WHOLE, Frame, Object, Patch};
+use micropoly_core::abi::{
+    Draw, FLAG_FLAT, FLAG_NAIVE, FLAG_WHOLE, Frame, KIND_HALF_SHIFT, Object, PARAM_ONE, Patch,
+};
 use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::camera::Camera;
 use micropoly_core::displacement::Displacement;
 use micropoly_core::kernel::dice::Grid;
 use micropoly_core::kernel::dice_any::dice_any;
+use micropoly_core::patch::Net;
 use micropoly_core::patch::gregory::patch_count;
+use micropoly_core::patch::half::SIDE_POINTS;
+use micropoly_core::patch::owner::owned_by_half;
 use micropoly_core::schedule::for_each_draw;
 
 /// A closed mesh of quads: corners of each face, in the order (0,0), (1,0), (0,1), (1,1) of u and v.
@@ -174,6 +179,81 @@ fn closed_meshes_stay_closed() {
         assert!(tally.open == 0, "round {round}: {tally:?}");
         assert!(tally.collapsed * 10 < tally.triangles, "round {round}: {tally:?}");
     }
+}
+
+/// Control points of a side that are the same in two patches, whichever way they run: is it the other way?
+fn same_side(a: &Patch, side_a: usize, b: &Patch, side_b: usize) -> Option<bool> {
+    let points = |p: &Patch, side: usize| SIDE_POINTS[side].map(|l| [p.x[l], p.y[l], p.z[l]]);
+    let (there, mut back) = (points(a, side_a), points(b, side_b));
+    if there == back {
+        return Some(false);
+    }
+    back.reverse();
+    (there == back).then_some(true)
+}
+
+/// Halves some Bézier patches along u, where the patches beside them are still whole: their sides are halves of those.
+fn halve_some(random: &mut fastrand::Rng, patches: &mut Vec<Patch>) -> usize {
+    let (mut count, whole) = (0, patches.len());
+    for index in 0..whole {
+        let patch = patches[index];
+        let beside = |side: usize| {
+            (0..whole).filter(|other| *other != index).find_map(|other| {
+                let found = (0..4).find_map(|s| same_side(&patch, side, &patches[other], s).map(|r| (s, r)));
+                found.map(|(other_side, is_reversed)| (other, other_side, is_reversed))
+            })
+        };
+        let (Some(low), Some(high)) = (beside(0), beside(1)) else { continue };
+        // What is halved may have no halves beside it, and neither may its neighbours be halved that way.
+        let is_free = |other: usize| patches[other].kind >> KIND_HALF_SHIFT == 0 && patches[other].faces == 0;
+        if random.bool() || patch.kind > 0 || !is_free(low.0) || !is_free(high.0) || low.0 == high.0 {
+            continue;
+        }
+        let net = Net::in_object_space(&patch);
+        let parts =
+            [[0, PARAM_ONE / 2], [PARAM_ONE / 2, PARAM_ONE]].map(|u| net.between([u, [0, PARAM_ONE]]));
+        for (k, part) in parts.into_iter().enumerate() {
+            let mut half = Patch { x: part.x, y: part.y, z: part.z, ..Patch::default() };
+            for (side, (other, other_side, is_reversed)) in [low, high].into_iter().enumerate() {
+                half.kind |= 1 << side << KIND_HALF_SHIFT;
+                let is_second = (k == 1) != is_reversed;
+                half.owners[side] = owned_by_half(other as u32, other_side as u32, is_reversed, is_second);
+                patches[other].kind |= 1 << other_side;
+            }
+            if k == 0 { patches[index] = half } else { patches.push(half) }
+        }
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn closed_meshes_stay_closed_where_sides_are_halves_of_others() {
+    let (mut random, mut halved, mut joined) = (random(5), 0, 0);
+    for round in 0..48 {
+        let (n, rough) = ([2, 3][round % 2], [0.05, 0.3, 1.0][round % 3]);
+        let mut patches = closed(&mut random, n, rough, false);
+        halved += halve_some(&mut random, &mut patches);
+        let (mut frame, object) = view(&camera(&mut random), 160, 120);
+        frame.levels = 41;
+        frame.flags |= FLAG_WHOLE;
+        if round % 4 == 3 {
+            frame.flags |= FLAG_FLAT;
+            (frame.bound, frame.rate, frame.density) = (1.0, 1, 1.0);
+        }
+        let object = if round % 4 == 1 { object.displaced(&bumps(&mut random), 4.0) } else { object };
+        if round % 4 == 1 {
+            let mut room = vec![0; room_needed(&patches)];
+            find_owners(&mut patches, &mut room);
+        }
+        let tally = tally(&frame, &object, &patches);
+        assert!(tally.open == 0, "round {round}: {tally:?}");
+        if round < 8 && round % 4 == 0 {
+            patches.iter_mut().for_each(|patch| patch.kind = 0);
+            joined += self::tally(&frame, &object, &patches).open;
+        }
+    }
+    assert!(halved > 90 && joined > 100, "{halved} halved, {joined} open edges if they were not joined");
 }
 
 #[test]

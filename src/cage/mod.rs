@@ -1,5 +1,34 @@
 //! Cages: polygon meshes whose Catmull-Clark limit surfaces are drawn.
 
+mod accuracy;
+mod convert;
+mod dart;
+mod eigen;
+mod error;
+mod eval;
+mod fan;
+pub mod generate;
+mod gregory;
+mod level;
+mod limit;
+mod masks;
+mod net;
+mod origin;
+mod refine;
+mod regular;
+mod sector;
+mod start;
+mod tags;
+mod tangents;
+mod texture;
+mod topology;
+
+pub use convert::{MOST_LEVELS, Options, Patches, convert};
+pub use error::CageError;
+pub use eval::{Evaluation, Evaluator};
+pub use origin::Origin;
+pub use texture::TextureMap;
+
 /// How the surface ends where the cage has a boundary; OpenSubdiv's names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Boundary {

@@ -1,10 +1,12 @@
 //! Arguments and options, checked as they are read.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 
 use bytesize::ByteSize;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
+use micropoly::cage::{MOST_LEVELS, Options};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
 use micropoly::core::reconstruction::{MAX_RADIUS, MIN_RADIUS};
@@ -12,8 +14,11 @@ use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
 use micropoly::{
     Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Oracle, Profile, Rasteriser,
-    RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
+    Reading, RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
 };
+
+use super::eval::{BoundaryChoice, EvalArguments};
+use super::progress::Progress;
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -37,14 +42,57 @@ pub(crate) enum Command {
     Diff(DiffArguments),
     /// Find out, device by device and stage by stage, whether all devices give the same bits.
     Conform(ConformArguments),
+    /// Say where the surface of a cage is at some of its places.
+    Eval(EvalArguments),
     /// Measure subdivision: scheduler × batch × scene × backend (Weber 2014, Table 7.2).
     Bench(BenchArguments),
 }
 
+/// What is read, and how.
+#[derive(Debug, Args)]
+pub(crate) struct SceneArguments {
+    /// Scene file (.toml, .mscene, .rib) or file of geometry (.obj, .bpt).
+    scene: PathBuf,
+    /// Levels of refinement of Catmull-Clark cages around what is not regular.
+    #[arg(long, value_name = "N", default_value_t = Options::default().levels,
+          value_parser = value_parser!(u32).range(0..=i64::from(MOST_LEVELS)))]
+    cc_levels: u32,
+    /// How the surfaces of cages end. [default: as the file says, else edge_and_corner]
+    #[arg(long, value_enum)]
+    boundary: Option<BoundaryChoice>,
+    /// Draw the polygons of .obj files as they are, not as Catmull-Clark cages.
+    #[arg(long, conflicts_with_all = ["cc_levels", "boundary"])]
+    polygons: bool,
+}
+
+impl SceneArguments {
+    /// Reads the scene, and says what of it is not drawn.
+    pub(crate) fn load(&self, style: ProgressStyle) -> micropoly::Result<Scene> {
+        let reading = Reading {
+            cage: Options { levels: self.cc_levels },
+            boundary: self.boundary.map(Into::into),
+            polygons: self.polygons,
+        };
+        let progress = Mutex::new(Progress::new(style, 100, "per cent"));
+        let scene = Scene::load_with(&self.scene, &reading, &|share| {
+            if let Ok(mut progress) = progress.lock() {
+                progress.update((share * 100.0) as u64, || "refining".to_owned());
+            }
+        })?;
+        if let Ok(mut progress) = progress.lock() {
+            progress.finish();
+        }
+        for note in &scene.notes {
+            eprintln!("note: {note}");
+        }
+        Ok(scene)
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct RenderArguments {
-    /// Scene file (.toml, .mscene) or patch file (.bpt).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
     /// Image file to write: .png, or .exr with linear colour, coverage, depth, normal, uv, patch and number of samples. With
     /// --frames, # in its name stands for the number of the frame (#### for at least four digits).
     #[arg(short, long, value_name = "FILE", value_parser = image_path)]
@@ -119,8 +167,8 @@ impl RenderArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct TessellateArguments {
-    /// Scene file (.toml, .mscene) or patch file (.bpt).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
     /// Mesh file to write (.obj, .ply or .glb).
     #[arg(short, long, value_name = "FILE", value_parser = mesh_path)]
     pub(crate) output: (PathBuf, Format),
@@ -134,6 +182,8 @@ pub(crate) struct TessellateArguments {
     #[arg(long, value_name = "N", default_value = "16", allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_RATE)))]
     dice: u32,
+    #[command(flatten)]
+    oracle: OracleArguments,
     /// Levels of subdivision: a patch is halved at most N - 1 times.
     #[arg(long, value_name = "N", default_value = "41", allow_negative_numbers = true,
           value_parser = value_parser!(u32).range(1..=i64::from(MAX_LEVELS)))]
@@ -172,6 +222,8 @@ impl TessellateArguments {
             bound: self.dice as f32 * self.micropolygon_size,
             rate: self.dice,
             size: self.micropolygon_size,
+            oracle: self.oracle.oracle.into(),
+            tolerance: self.oracle.tolerance(),
             levels: self.max_depth,
             whole: !self.visible,
             ..FrameOptions::default()
@@ -181,8 +233,8 @@ impl TessellateArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArguments {
-    /// Scene file (.toml, .mscene) or patch file (.bpt).
-    pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
     #[command(flatten)]
     pub(crate) frame: FrameArguments,
 }
@@ -260,6 +312,9 @@ pub(crate) struct BenchArguments {
     /// sort-last to compare with. Without a scene: the built-in teapot.
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing"])]
     pub(crate) raster: bool,
+    /// Measure how cages become patches instead: regular tori, tori with extraordinary vertices, and triangles.
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "scenes"])]
+    pub(crate) cage: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]
@@ -349,13 +404,8 @@ pub(crate) struct FrameArguments {
     /// Length of a micropolygon in pixels; larger where --dice of them would not be as long as --bound.
     #[arg(long, value_name = "PIXELS", default_value = "1", allow_negative_numbers = true, value_parser = pixels)]
     micropolygon_size: f32,
-    /// When a surface is split no further: when it is no longer than --bound, then it is diced; or when it is flat, then it
-    /// is one micropolygon.
-    #[arg(long, value_enum, default_value_t = OracleChoice::Size, conflicts_with = "profile")]
-    oracle: OracleChoice,
-    /// How far what is drawn may be from the surface, for --oracle flatness. [default: 0.5]
-    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = pixels, requires = "oracle")]
-    tolerance: Option<f32>,
+    #[command(flatten)]
+    oracle: OracleArguments,
     /// How the grids of neighbouring surfaces meet; all but watertight leave cracks, and are there to compare with.
     #[arg(long, value_enum, default_value_t = BordersChoice::Watertight)]
     borders: BordersChoice,
@@ -431,8 +481,8 @@ impl FrameArguments {
             bound: self.bound.unwrap_or(bound),
             rate,
             size: self.micropolygon_size,
-            oracle: self.oracle.into(),
-            tolerance: self.tolerance.unwrap_or(FrameOptions::default().tolerance),
+            oracle: self.oracle.oracle.into(),
+            tolerance: self.oracle.tolerance(),
             borders: self.borders.into(),
             levels: self.max_depth.unwrap_or(if self.is_weber() { 23 } else { MAX_LEVELS }),
             cull_backfaces: self.cull_backfaces,
@@ -499,6 +549,24 @@ pub(crate) enum ProfileChoice {
     /// As Weber's program of 2014 does it.
     #[value(name = "weber2014")]
     Weber2014,
+}
+
+/// When a surface is split no further.
+#[derive(Debug, Args)]
+struct OracleArguments {
+    /// When a surface is split no further: when it is no longer than --bound or --dice allow, then it is diced; or when it is
+    /// flat, then it is one micropolygon.
+    #[arg(long, value_enum, default_value_t = OracleChoice::Size)]
+    oracle: OracleChoice,
+    /// How far what is drawn may be from the surface, for --oracle flatness. [default: 0.5]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = pixels, requires = "oracle")]
+    tolerance: Option<f32>,
+}
+
+impl OracleArguments {
+    fn tolerance(&self) -> f32 {
+        self.tolerance.unwrap_or(FrameOptions::default().tolerance)
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

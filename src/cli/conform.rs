@@ -113,6 +113,7 @@ fn cases(scenes: &[Scene]) -> Result<Vec<Case>> {
             frame: device.frame,
             objects: device.objects,
             patches: device.patches,
+            patch_count: device.patch_count,
         });
     }
     Ok(cases)
@@ -122,7 +123,7 @@ fn cases(scenes: &[Scene]) -> Result<Vec<Case>> {
 fn schedules(case: &Case) -> Vec<Schedule> {
     let mut all = BATCHES.map(Schedule::of_batch).to_vec();
     if case.frame.width == SIZES[0].0 {
-        let affordable = |how: &Schedule| how.scheduler != Scheduler::Stack || case.patches.len() < FEW;
+        let affordable = |how: &Schedule| how.scheduler != Scheduler::Stack || case.patch_count < FEW;
         all.extend(Schedule::all(case).into_iter().filter(affordable));
     }
     all

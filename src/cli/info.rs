@@ -1,22 +1,23 @@
 //! `micropoly info`.
 
 use bytesize::ByteSize;
-use micropoly::{Light, Result, Scene, sizes_for};
+use micropoly::{Light, Result, sizes_for};
 
-use super::args::InfoArguments;
+use super::args::{InfoArguments, ProgressStyle};
 
 pub(crate) fn run(arguments: &InfoArguments) -> Result<()> {
-    let scene = Scene::load(&arguments.scene)?;
+    let scene = arguments.scene.load(ProgressStyle::Auto)?;
     let options = arguments.frame.options();
     scene.for_device(&options.frame)?;
     let sizes = sizes_for(&scene, &options)?;
     let (low, high) = scene.bounds();
     let eye = scene.camera.view.inverse().translation;
     let point_lights = scene.lights.iter().filter(|light| matches!(light, Light::Point { .. })).count();
-    let gregory = scene.gregory_count();
+    let (gregory, rational) = (scene.gregory_count(), scene.rational_count());
+    let bezier = scene.patch_count() - gregory - rational;
     say!("scene        {}", scene.name);
     say!("objects      {}", scene.objects.len());
-    say!("patches      {} bicubic Bézier, {gregory} Gregory", scene.patch_count() - gregory);
+    say!("patches      {bezier} bicubic Bézier, {gregory} Gregory, {rational} rational");
     say!(
         "bounds       {:.4} {:.4} {:.4}  to  {:.4} {:.4} {:.4}",
         low.x,

@@ -11,11 +11,13 @@ macro_rules! say {
 
 mod args;
 mod bench;
+mod bench_cage;
 mod bench_dicing;
 mod bench_raster;
 mod conform;
 mod devices;
 mod diff;
+mod eval;
 mod info;
 mod output;
 mod plot;
@@ -49,6 +51,8 @@ pub(crate) fn main() -> ExitCode {
             outcome => outcome.map(|_| ()),
         },
         Command::Conform(arguments) => conform::run(&arguments),
+        Command::Eval(arguments) => eval::run(&arguments),
+        Command::Bench(arguments) if arguments.cage => bench_cage::run(&arguments),
         Command::Bench(arguments) if arguments.raster => bench_raster::run(&arguments),
         Command::Bench(arguments) if arguments.dicing => bench_dicing::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),

@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<()> {
     let start = Instant::now();
     let kind = Kind::of(&arguments.output, arguments.bits)?;
     check_folder(&arguments.output)?;
-    let scene = Scene::load(&arguments.scene)?;
+    let scene = arguments.scene.load(arguments.progress)?;
     let blur = Some(arguments.blur(&scene)?);
     let options = RenderOptions { film: kind.needs_film(), blur, ..arguments.options() };
     let load = start.elapsed().as_secs_f64();

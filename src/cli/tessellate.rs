@@ -2,17 +2,17 @@
 
 use std::time::Instant;
 
+use micropoly::Result;
 use micropoly::mesh::Mesh;
-use micropoly::{Result, Scene};
 
-use super::args::TessellateArguments;
+use super::args::{ProgressStyle, TessellateArguments};
 use super::render::check_folder;
 
 pub(crate) fn run(arguments: &TessellateArguments) -> Result<()> {
     let start = Instant::now();
     let (path, format) = &arguments.output;
     check_folder(path)?;
-    let scene = Scene::load(&arguments.scene)?;
+    let scene = arguments.scene.load(ProgressStyle::Auto)?;
     let (mesh, notes) = Mesh::of(&scene, &arguments.options())?;
     for note in notes {
         eprintln!("note: {note}");

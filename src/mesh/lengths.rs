@@ -33,9 +33,9 @@ impl Histogram {
     /// # Errors
     /// As [`Scene::for_device`].
     pub fn of(scene: &Scene, options: &FrameOptions) -> Result<Self> {
-        let DeviceScene { frame, objects, patches } = scene.for_device(options)?;
+        let DeviceScene { frame, objects, patches, patch_count } = scene.for_device(options)?;
         let (mut out, mut grid) = (Self::default(), Box::new(Grid::default()));
-        for patch in 0..scene.patch_count() as u32 {
+        for patch in 0..patch_count as u32 {
             let Instance { record, object } = instance(&frame, &objects, &patches, patch);
             let object = &objects[object as usize];
             for_each_draw(&frame, &objects, &patches, patch, |draw, _| {

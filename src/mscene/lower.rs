@@ -35,6 +35,7 @@ pub(super) fn scene(path: &Path, file: &Mscene) -> Result<Scene> {
         ambient,
         lights,
         objects: objects(path, file)?,
+        notes: Vec::new(),
     })
 }
 

@@ -70,6 +70,17 @@ pub enum PolygonError {
     },
 }
 
+impl PolygonError {
+    /// The face that is wrong.
+    #[must_use]
+    pub const fn face(&self) -> Option<usize> {
+        match self {
+            Self::Size { face, .. } | Self::Vertex { face, .. } | Self::Concave { face, .. } => Some(*face),
+            Self::Corners { .. } | Self::Position { .. } | Self::Hole { .. } => None,
+        }
+    }
+}
+
 /// Most corners of a face that is divided by cutting off ears, which takes as long as the square of their number.
 pub const MOST_CORNERS: usize = 10_000;
 

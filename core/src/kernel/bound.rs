@@ -258,8 +258,8 @@ impl<'a> Hull<'a> {
         })
     }
 
-    /// With what is enclosed by corners that have strayed, in place of the surface itself: vertices may be anywhere in it,
-    /// so all of it has to be twice as flat. The same goes for live sides that begin or end with such a corner.
+    /// With what is enclosed by corners that have strayed, in place of the surface itself. The same goes for live sides that
+    /// begin or end with such a corner.
     #[inline(never)]
     fn astray(&self, frame: &Frame, surface: Surface, own: Lengths) -> Lengths {
         let near = self.measured_from(frame);
@@ -275,7 +275,7 @@ impl<'a> Hull<'a> {
             }
         }
         let [first, second] = enclosed(surface);
-        let most = mul(2.0, max(off(first), off(second)));
+        let most = max(off(first), off(second));
         Lengths { u: most, v: most, sides }.with_sides(sides)
     }
 
