@@ -331,7 +331,13 @@ fn draws(random: &mut fastrand::Rng, round: u64) -> Parts {
         if draws.iter().any(|draw: &Draw| overlap(draw.surface(), surface)) {
             continue;
         }
-        let verdict = bound_any(&frame, &objects, &patches, surface);
+        let mut verdict = bound_any(&frame, &objects, &patches, surface);
+        // Here halves lie anywhere, and not where the large side is as in any frame; so do the vertices on them.
+        let known = instance(&frame, &objects, &patches, surface.patch_id);
+        if SIDES.into_iter().any(|side| patches[known.record as usize].is_half(side)) {
+            verdict.columns = frame.left | frame.right << 16;
+            verdict.rows = frame.top | frame.bottom << 16;
+        }
         // Twice the same surface now and then: equal depths, equal identities.
         for _ in 0..random.usize(1..=2) {
             if matches!(verdict.code, DRAW | DRAW_LIMITED) && draws.len() < most {

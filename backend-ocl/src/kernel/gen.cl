@@ -23,7 +23,7 @@
 #define THIRD 3.3333334e-1f
 #define PLACE_BITS 8u
 #define JOINED_SPLITS 15u
-#define LINE_SHARE 2.0833334e-2f
+#define LINE_SHARE 1.0416667e-2f
 #define SHADE_TINY 1e-30f
 #define OWNER_SHIFT 6u
 #define OWNER_IS_HALF 16u

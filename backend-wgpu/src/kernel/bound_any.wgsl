@@ -85,7 +85,6 @@ fn lengths_of(surface: Surface, hull: Hull, points: Net) -> Lengths {
 // see it once: 0 to 3 are sides; 4 to 7 what the vertices of a side enclose; 8 and 9 what those of both triangles do, or,
 // if no corner has strayed, 8 is the whole surface.
 fn flatness_of(surface: Surface, hull: Hull) -> Lengths {
-    let is_astray = strayed_corners(surface) != 0u;
     var sides = vec4<f32>(0.0, 0.0, 0.0, 0.0);
     var whole = 0.0;
     for (var part = 0u; part < 10u; part++) {
@@ -97,8 +96,6 @@ fn flatness_of(surface: Surface, hull: Hull) -> Lengths {
             whole = select(max(whole, off), whole, part < 8u);
         }
     }
-    // Vertices may be anywhere in what they enclose, so all of it has to be twice as flat.
-    whole = select(whole, mul(2.0, whole), is_astray);
     return with_own_sides(Lengths(whole, whole, sides), sides);
 }
 

@@ -1,23 +1,30 @@
-// Mirrors core/src/kernel/flat.rs: how far a surface is, on screen, from the one micropolygon that would be drawn for it.
+// Mirrors core/src/kernel/flat.rs: how far triangles can be, on screen, from the part of a patch that they stand for.
 
-// How far a part of a patch, given its control points, is from its two triangles, whatever its sides are.
+// How far a part of a patch, given its control points, is from triangles in it.
 fn part_flatness(part: Net) -> f32 {
-    let a = net_point(part, 0u);
-    let b = net_point(part, 3u);
-    let c = net_point(part, 12u);
-    let d = net_point(part, 15u);
-    var most = 0.0;
-    var nearest = before_eye(a);
-    for (var l = 0u; l < 16u; l++) {
-        let point = net_point(part, l);
-        let even = raised(raised(a, c, l / 4u), raised(b, d, l / 4u), l % 4u);
-        most = max(most, apart(point, even));
-        nearest = min(nearest, before_eye(point));
+    var bent_u = 0.0;
+    var bent_v = 0.0;
+    var twisted = 0.0;
+    var nearest = before_eye(net_point(part, 0u));
+    for (var i = 0u; i < 4u; i++) {
+        for (var j = 0u; j < 4u; j++) {
+            let at = 4u * i + j;
+            let a = net_point(part, at);
+            nearest = min(nearest, before_eye(a));
+            if i < 2u {
+                bent_u = max(bent_u, bend(a, net_point(part, at + 4u), net_point(part, at + 8u)));
+            }
+            if j < 2u {
+                bent_v = max(bent_v, bend(a, net_point(part, at + 1u), net_point(part, at + 2u)));
+            }
+            if i < 3u && j < 3u {
+                let b = net_point(part, at + 1u);
+                twisted = max(twisted, twist(a, b, net_point(part, at + 4u), net_point(part, at + 5u)));
+            }
+        }
     }
-    // The two triangles are farthest from the bilinear patch in its middle.
-    let ridge = midpoint(a, d);
-    let twist = apart(ridge, midpoint(ridge, midpoint(b, c)));
-    return mul(add(most, twist), pixels_at(max(nearest, measured_from())));
+    let bent = mul(0.75, add(length_of(bent_u), length_of(bent_v)));
+    return mul(add(bent, mul(2.25, length_of(twisted))), recip(max(nearest, measured_from())));
 }
 
 // The control points of a side of a part of a patch.
@@ -44,14 +51,14 @@ fn line_flatness(line: Line) -> f32 {
     let b = line.points[1];
     let c = line.points[2];
     let d = line.points[3];
-    let most = max(apart(b, raised(a, d, 1u)), apart(c, raised(a, d, 2u)));
+    let bent = max(bend(a, b, c), bend(b, c, d));
     let nearest = min(min(before_eye(a), before_eye(d)), min(before_eye(b), before_eye(c)));
-    return mul(most, pixels_at(max(nearest, measured_from())));
+    return mul(mul(0.75, length_of(bent)), recip(max(nearest, measured_from())));
 }
 
 // How many times as flat as a surface a line must be of which a piece 2^bits units long is looked at.
 fn strictness(bits: u32) -> f32 {
-    return add(2.0, mul(LINE_SHARE, float(i32(bits))));
+    return add(1.0, mul(LINE_SHARE, float(i32(bits))));
 }
 
 // The range around three vertices.
@@ -69,10 +76,17 @@ fn higher(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
     return select(b, a, a > b);
 }
 
-// Pixels that a length of 1 has at most in the image, so far before the eye, whichever way it lies.
-fn pixels_at(before: f32) -> f32 {
-    let corner = vec3<f32>(frame.focal, frame.centre_x, frame.centre_y);
-    return mul(sqrt(dot3(corner, corner)), recip(before));
+// Squared length on screen, times the distance, of a small step at a point.
+fn step_seen(at: vec3<f32>, way: vec3<f32>) -> f32 {
+    if is_whole() {
+        return mul(mul(frame.focal, frame.focal), dot3(way, way));
+    }
+    let scale = mul(frame.focal, recip(max(neg(at.z), measured_from())));
+    let x = clamp(mul(at.x, scale), neg(frame.centre_x), frame.centre_x);
+    let y = clamp(mul(at.y, scale), neg(frame.centre_y), frame.centre_y);
+    let on_screen = vec3<f32>(
+        add(mul(way.x, frame.focal), mul(x, way.z)), add(mul(way.y, frame.focal), mul(y, way.z)), 0.0);
+    return dot3(on_screen, on_screen);
 }
 
 // How far before the eye a point is; if the mesh is to be whole, as if the eye had turned to it.
@@ -88,28 +102,16 @@ fn net_point(net: Net, l: u32) -> vec3<f32> {
     return vec3<f32>(net.x[l], net.y[l], net.z[l]);
 }
 
-// Control point k of four on the line between two points.
-fn raised(a: vec3<f32>, b: vec3<f32>, k: u32) -> vec3<f32> {
-    let near_end = select(a, b, k > 1u);
-    let far_end = select(b, a, k > 1u);
-    let third = vec3<f32>(
-        between_thirds(near_end.x, far_end.x),
-        between_thirds(near_end.y, far_end.y),
-        between_thirds(near_end.z, far_end.z),
-    );
-    return select(third, near_end, k == 0u || k == 3u);
+// Squared length of a second difference; the same from either end.
+fn bend(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> f32 {
+    return step_seen(b, add3(difference(a, b), difference(c, b)));
 }
 
-// A third of the way from one number to another.
-fn between_thirds(a: f32, b: f32) -> f32 {
-    return mul(add(add(a, a), b), THIRD);
+// Squared length of a difference of differences.
+fn twist(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>) -> f32 {
+    return step_seen(a, difference(add3(a, d), add3(b, c)));
 }
 
-fn midpoint(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
-    return scale3(add3(a, b), 0.5);
-}
-
-// Distance of two points in eye space.
-fn apart(a: vec3<f32>, b: vec3<f32>) -> f32 {
-    return distance_of(a, b);
+fn length_of(square: f32) -> f32 {
+    return sqrt(add(square, LENGTH_TINY));
 }
