@@ -356,9 +356,8 @@ fn bound_any(surface: Surface) -> Verdict {
     IS_RATIONAL = (KIND & KIND_RATIONAL) != 0u;
     IS_GREGORY = more != 0u && !IS_RATIONAL;
     if more != 0u {
-        let record = in_object_space(more);
-        FACES = faces_in_eye_space(record, OBJECT);
-        WEIGHTS = Weights(record.x);
+        FACES = faces_in_eye_space(more, OBJECT);
+        WEIGHTS = weights_of(more);
     }
     let whole = in_eye_space(RECORD, OBJECT);
     let hull = hull_of_any(whole, surface);
