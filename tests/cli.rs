@@ -149,7 +149,7 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (scene(CAMERA, "patches = [[[0, 0, 0]]]"), "a patch of 1 points"),
         (scene(CAMERA, "gregory = [[[0, 0, 0]]]"), "has 20 points"),
         (scene(CAMERA, "patches = []"), "the list of patches is empty"),
-        (scene(CAMERA, "geometry = \"patches.obj\""), "not a .bpt file"),
+        (scene(CAMERA, "geometry = \"patches.ply\""), "neither an .obj nor a .bpt file"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"red\""), "this is not a colour"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nshininess = 3"), "power of two"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nscale = nan"), "scale"),
@@ -535,4 +535,64 @@ fn bench_refuses_frames_that_no_path_has() {
         let (found, text) = bench(scene, more);
         assert!(found == Some(code) && text.contains(what), "{more:?} gave {found:?}: {text}");
     }
+}
+
+#[test]
+fn eval_gives_the_limit_of_a_cage_and_names_samples_that_are_nowhere() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (samples, out) = (folder.path().join("samples.json"), folder.path().join("out.json"));
+    let eval = |text: &str| {
+        std::fs::write(&samples, text).expect("written");
+        let [samples, out] = [&samples, &out].map(|path| path.to_str().expect("UTF-8"));
+        let output = micropoly(&["eval", "scenes/cages/cube.obj", "--at", samples, "-o", out]);
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    // A corner of the cube, of valence 3: its limit is known (0.5 of its own place), its normal too.
+    assert_eq!(eval(r#"{"samples": [[0, -1, 0, 0]]}"#).0, Some(0));
+    let report = std::fs::read_to_string(&out).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let sample = report["samples"][0].as_array().expect("a sample");
+    for k in 4..7 {
+        assert!((sample[k].as_f64().expect("a number").abs() - 0.5).abs() < 1.0e-6, "{sample:?}");
+        let normal = sample[k + 3].as_f64().expect("a number").abs();
+        assert!((normal - 1.0 / 3.0_f64.sqrt()).abs() < 1.0e-3, "{sample:?}");
+    }
+    for (text, what) in [
+        (r#"{"samples": [[0, -1, 0, 0], [6, -1, 0, 0]]}"#, "1"),
+        (r#"[[0, -1, 2, 0]]"#, "0"),
+        (r#"{"samples": 3}"#, "samples"),
+        ("{", "1"),
+    ] {
+        let (code, text) = eval(text);
+        assert!(code == Some(1) && text.contains(what) && text.contains("help:"), "{text}");
+    }
+}
+
+#[test]
+fn meshes_that_have_no_surface_are_refused_with_their_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("mesh.obj");
+    let vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n";
+    for (faces, line) in [
+        ("f 1 2 3 4\nf 1 2 5\nf 2 1 5\n", ":"),
+        ("f 1 2 3 9\n", ":6:"),
+        ("f 1 2 3 3\n", ":6:"),
+        ("f 1 2 3 4\nf 1 2 x\n", ":7:"),
+        ("f 1 2\n", ":6:"),
+        ("", ":"),
+    ] {
+        std::fs::write(&file, format!("{vertices}{faces}")).expect("written");
+        let text = render(&file, &[]);
+        assert_refused(text.clone(), "help:");
+        assert!(text.1.contains(&format!("mesh.obj{line}")), "{faces}: {}", text.1);
+    }
+}
+
+#[test]
+fn what_flatness_does_not_know_is_refused() {
+    let (code, text, _) = render(Path::new("scenes/displaced.toml"), &["--oracle", "flatness"]);
+    assert!(code == 1 && text.contains("--oracle size"), "{text}");
+    let weber = ["--oracle", "flatness", "--profile", "weber2014"];
+    let (code, text, _) = render(Path::new("scenes/teapot.toml"), &weber);
+    assert!(code == 1 && text.contains("--oracle size"), "{text}");
 }

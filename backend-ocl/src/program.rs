@@ -20,10 +20,12 @@ macro_rules! files {
 }
 
 files! {
-    "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "border.cl" "net.cl" "gregory.cl" "owner.cl" "project.cl"
-    "weber.cl" "take.cl" "sides.cl" "bound.cl" "grids.cl" "dice.cl" "dice_gregory.cl" "displace.cl" "shade.cl"
-    "triangle.cl" "clip.cl" "blend.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "sort_middle.cl"
-    "tiles.cl" "sort_last.cl" "filter.cl" "mesh.cl" "flush.cl" "scan.cl" "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl" "known_answers.cl"
+    "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "border.cl" "net.cl" "gregory.cl" "rational.cl" "owner.cl"
+    "half.cl" "instance.cl" "project.cl" "weber.cl" "take.cl" "flat.cl" "sides.cl" "bound.cl" "grids.cl"
+    "dice.cl" "dice_gregory.cl" "dice_rational.cl" "dice_any.cl" "displace.cl" "shade.cl" "triangle.cl" "clip.cl"
+    "blend.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "sort_middle.cl" "tiles.cl" "sort_last.cl"
+    "filter.cl" "mesh.cl" "flush.cl" "scan.cl" "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl"
+    "known_answers.cl"
 }
 
 /// The kernels: one a stage, and those into which the stages that draw are cut.

@@ -163,6 +163,12 @@ const ALLOWED: &[Allowed] = &[
         why: "all work-items have the same counts, and writing them twice changes nothing more",
     },
     Allowed {
+        file: "half.cl",
+        line: "return (patch->kind >> KIND_HALF_SHIFT & ALL_SIDES) != 0u;",
+        operator: " & ",
+        why: "then every side of every patch is looked at, and none of them is a half",
+    },
+    Allowed {
         file: "local.cl",
         line: "if (entry == first) {",
         operator: " == ",
@@ -188,13 +194,18 @@ fn stages(file: &str) -> Vec<Stage> {
         }
         "take.cl" => vec![Stage::Take, Stage::Bound, Stage::Local],
         "scan.cl" => vec![Stage::Scan, Stage::Local, Stage::MeshPlaces],
-        "bezier.cl" | "net.cl" | "gregory.cl" => vec![Stage::Bound, Stage::Draw, Stage::Mesh],
+        "bezier.cl" | "net.cl" | "gregory.cl" | "rational.cl" | "half.cl" | "instance.cl" => {
+            vec![Stage::Bound, Stage::Draw, Stage::Mesh]
+        }
+        "owner.cl" => vec![Stage::Bound, Stage::Draw, Stage::Mesh],
         "project.cl" => vec![Stage::Bound, Stage::Draw],
-        "owner.cl" | "dice.cl" | "dice_gregory.cl" | "displace.cl" => vec![Stage::Draw, Stage::Mesh],
+        "dice.cl" | "dice_gregory.cl" | "dice_rational.cl" | "dice_any.cl" | "displace.cl" => {
+            vec![Stage::Draw, Stage::Mesh]
+        }
         "blend.cl" => vec![Stage::Blend, Stage::Draw],
         "sample.cl" => vec![Stage::Draw, Stage::SortLast, Stage::Filter, Stage::Mesh],
         "general.cl" | "grids.cl" => vec![Stage::Draw, Stage::SortLast],
-        "weber.cl" | "sides.cl" => vec![Stage::Bound],
+        "weber.cl" | "flat.cl" | "sides.cl" => vec![Stage::Bound],
         _ => {
             let own = Stage::ALL.into_iter().find(|stage| file.strip_suffix(".cl") == Some(stage.name()));
             vec![own.unwrap_or(Stage::Draw)]

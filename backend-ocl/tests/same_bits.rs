@@ -2,7 +2,7 @@
 //!
 //! Runs on every OpenCL device there is; without one it fails, since nothing would be tested.
 
-use micropoly::{Borders, FrameOptions, Profile, Rasteriser, Samples, Scene, Shading};
+use micropoly::{Borders, FrameOptions, Oracle, Profile, Rasteriser, Samples, Scene, Shading};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_ocl::{OclDevice, OclError, OpenOptions, devices};
 use micropoly_conformance::report::check_stage;
@@ -23,6 +23,8 @@ const SMALL: FrameOptions = FrameOptions {
     bound: 16.0,
     rate: 16,
     size: 1.0,
+    oracle: Oracle::Size,
+    tolerance: 0.5,
     borders: Borders::Watertight,
     levels: 23,
     cull_backfaces: false,
@@ -83,6 +85,16 @@ fn all_scenes_have_the_bits_of_the_cpu() {
 fn other_dice_rates_have_the_bits_of_the_cpu() {
     for (rate, bound) in [(8, 8.0), (7, 7.0), (16, 20.0), (2, 20.0), (1, 3.0)] {
         compare(&case("teapot", &FrameOptions { rate, bound, ..SMALL }), &[4096], &OpenOptions::default());
+    }
+}
+
+#[test]
+fn flatness_has_the_bits_of_the_cpu() {
+    for scene in ["teapot", "gregory", "displaced", "eyesplit"] {
+        for tolerance in [0.25, 2.0] {
+            let options = FrameOptions { oracle: Oracle::Flatness, tolerance, ..SMALL };
+            compare(&case(scene, &options), &[4096], &OpenOptions::default());
+        }
     }
 }
 

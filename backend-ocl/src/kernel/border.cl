@@ -28,10 +28,11 @@ static uint2 corners_of(uint side) {
 
 // Where step `index` of `steps` ends in a piece 2^bits long; the same places from either end.
 static uint place(uint index, uint steps, uint bits) {
+    const uint fine = lesser_of(bits, PLACE_BITS), rest = bits - fine;
     if (2u * index <= steps) {
-        return (index << bits) / steps;
+        return ((index << fine) / steps) << rest;
     }
-    return (1u << bits) - ((steps - index) << bits) / steps;
+    return (1u << bits) - ((((steps - index) << fine) / steps) << rest);
 }
 
 // A corner that has strayed, packed.
@@ -65,11 +66,15 @@ static bool has_strayed(Surface surface, uint number) {
     return surface.borders[number] >> CORNER_SHIFT != 0u;
 }
 
+// u and v of a corner, if it has not strayed.
+static uint2 seeming_corner(Surface surface, uint number) {
+    return (uint2)(number % 2u == 0u ? surface.u : surface.u + u_size(surface),
+                   number < 2u ? surface.v : surface.v + v_size(surface));
+}
+
 // u and v of the vertex at a corner.
 static uint2 corner(Surface surface, uint number) {
-    const uint u = number % 2u == 0u ? surface.u : surface.u + u_size(surface);
-    const uint v = number < 2u ? surface.v : surface.v + v_size(surface);
-    return astray(surface.borders[number] >> CORNER_SHIFT, (uint2)(u, v));
+    return astray(surface.borders[number] >> CORNER_SHIFT, seeming_corner(surface, number));
 }
 
 // Where a side begins along its line, and the log2 of its length.

@@ -22,20 +22,32 @@ static PixelBox whole_window(__constant Frame *frame) {
 }
 
 // The patch's own points, and what rounding and displacement can do.
-static void put_patch(uint zero, float near, __global const Object *objects, __global const Patch *patches,
+static void put_patch(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
                       Surface surface, Hull *hull) {
-    __global const Patch *patch = patches + surface.patch_id;
-    __global const Object *object = objects + patch->object;
+    const uint zero = frame->zero;
+    const Instance known = instance(frame, objects, patches, surface.patch_id);
+    __global const Patch *patch = patches + known.record;
+    __global const Object *object = objects + known.object;
+    hull->patches = patches;
+    hull->patch = patch;
+    hull->object = object;
+    hull->is_rational = is_rational(patch);
+    hull->is_gregory = patch->faces != 0u && !hull->is_rational;
     in_eye_space(zero, patch, object, &hull->whole);
     float largest = extent(&hull->whole);
-    hull->is_gregory = patch->faces != 0u;
-    if (hull->is_gregory) {
+    if (patch->faces != 0u) {
         faces_in_eye_space(zero, patches + patch->faces, object, &hull->faces);
+    }
+    if (hull->is_gregory) {
         largest = max(largest, faces_extent(&hull->faces));
     }
     hull->slack = mul(largest, ROUNDING);
+    if (hull->is_rational) {
+        // Numerator and denominator each round, and so does the quotient.
+        hull->slack = mul(hull->slack, 4.0f);
+    }
     hull->reach = object->reach;
-    hull->near = max(near, object->reach);
+    hull->near = max(frame->near, object->reach);
 }
 
 static void copy_net(const Net *from, Net *to) {
@@ -46,16 +58,26 @@ static void copy_net(const Net *from, Net *to) {
     }
 }
 
+// The control points of a part of the patch. The inner points of a Gregory patch must be those that are in the middle.
+static void put_range(uint zero, const Hull *hull, uint4 range, Net *part) {
+    if (hull->is_rational) {
+        rational_part(zero, &hull->whole, hull->patches + hull->patch->faces, range, part);
+    } else {
+        part_between(zero, &hull->whole, range, part);
+    }
+}
+
 // The surface's part of it.
 static void put_part(__constant Frame *frame, Surface surface, Hull *hull) {
     const uint zero = frame->zero;
     const bool exchanged = (frame->flags & FLAG_WEBER) != 0u;
-    hull->apart = hull->is_gregory ? centre_inner(zero, &hull->faces, &hull->whole, surface, exchanged) : 0.0f;
+    const uint4 range = range_of(surface);
+    hull->apart = hull->is_gregory ? centre_inner(zero, &hull->faces, &hull->whole, range, exchanged) : 0.0f;
     hull->spread = add(hull->apart, hull->reach);
-    restricted(zero, &hull->whole, surface, &hull->part);
+    put_range(zero, hull, range, &hull->part);
     if (hull->is_gregory) {
         copy_net(&hull->part, &hull->follower);
-        follow(zero, &hull->faces, &hull->follower, surface, exchanged);
+        follow(zero, &hull->faces, &hull->follower, range, exchanged);
     }
 }
 
@@ -112,17 +134,108 @@ static void polygon_lengths(uint zero, const Net *points, Lengths *lengths) {
     put_lengths(along_u, along_v, lengths);
 }
 
+// How many times as flat as a surface one of its sides has to be: the same for whoever has it.
+static float strictness(uint zero, const Hull *hull, Surface surface, uint side) {
+    const uint bits = extent_of(surface, side).y;
+    return strictness_of(zero, is_half_line(hull->patch, surface, side) ? bits - 1u : bits);
+}
+
+// Control points of a part of the patch, or of a Bézier patch that is nearly the same there; `Hull::between` in core.
+static void put_between(uint zero, Hull *hull, uint4 range, Net *part) {
+    if (!hull->is_gregory) {
+        put_range(zero, hull, range, part);
+        return;
+    }
+    centre_inner(zero, &hull->faces, &hull->whole, range, false);
+    put_range(zero, hull, range, part);
+    follow(zero, &hull->faces, part, range, false);
+}
+
+// How far what is drawn in a range is from triangles.
+static float off_in(__constant Frame *frame, Hull *hull, uint4 range) {
+    Net part;
+    put_between(frame->zero, hull, range, &part);
+    return part_flatness(frame, hull->near, &part);
+}
+
+// How far the sides of a surface of a Gregory patch are from their chords, each by itself.
+static void lines_of_gregory(__constant Frame *frame, Hull *hull, Surface surface, float *sides) {
+    for (uint side = 0u; side < 4u; side++) {
+        const uint2 ends = corners_of(side);
+        const uint2 first = seeming_corner(surface, ends.x), last = seeming_corner(surface, ends.y);
+        Net part;
+        put_between(frame->zero, hull, around(first, last, last), &part);
+        sides[side] = side_flatness(frame, hull->near, &part, side);
+    }
+}
+
+// How far a live side that begins or ends with a corner that has strayed is from being flat, at least.
+static float side_astray(__constant Frame *frame, Hull *hull, Surface surface, uint side) {
+    const uint zero = frame->zero;
+    const uint2 ends = corners_of(side);
+    if (side_of(surface, side).steps != 0u || !(has_strayed(surface, ends.x) || has_strayed(surface, ends.y))) {
+        return 0.0f;
+    }
+    const uint2 from = corner(surface, ends.x), to = corner(surface, ends.y);
+    return mul(strictness(zero, hull, surface, side), off_in(frame, hull, around(from, to, to)));
+}
+
+// With what is enclosed by corners that have strayed, in place of the surface itself, and of such sides.
+static void with_astray(__constant Frame *frame, Hull *hull, Surface surface, Lengths *lengths) {
+    const uint zero = frame->zero;
+    const uint2 a = corner(surface, 0u), b = corner(surface, 1u), d = corner(surface, 2u), c = corner(surface, 3u);
+    float sides[4];
+    for (uint side = 0u; side < 4u; side++) {
+        sides[side] = max(lengths->sides[side], side_astray(frame, hull, surface, side));
+    }
+    lengths->u = max(off_in(frame, hull, around(a, b, c)), off_in(frame, hull, around(a, c, d)));
+    lengths->v = lengths->u;
+    put_sides(sides, lengths);
+}
+
+static void put_flatness(__constant Frame *frame, float near, const Net *part, Lengths *lengths) {
+    lengths->u = part_flatness(frame, near, part);
+    lengths->v = lengths->u;
+    for (uint side = 0u; side < 4u; side++) {
+        lengths->sides[side] = side_flatness(frame, near, part, side);
+    }
+}
+
+// How far a surface and its sides are from being flat; `Hull::flatness` in core.
+static void flatness_of(__constant Frame *frame, Hull *hull, Surface surface, Lengths *lengths) {
+    const uint zero = frame->zero;
+    float sides[4];
+    if (hull->is_gregory) {
+        lengths->u = part_flatness(frame, hull->near, &hull->follower);
+        lengths->v = lengths->u;
+        lines_of_gregory(frame, hull, surface, lengths->sides);
+    } else {
+        put_flatness(frame, hull->near, &hull->part, lengths);
+        with_half_lines(frame, hull, surface, lengths);
+    }
+    for (uint side = 0u; side < 4u; side++) {
+        sides[side] = mul(strictness(zero, hull, surface, side), lengths->sides[side]);
+    }
+    put_sides(sides, lengths);
+    if (!keeps_its_corners(surface)) {
+        with_astray(frame, hull, surface, lengths);
+    }
+}
+
 // Lengths on screen of a hull whose control points are measured to be at `points`, which are then another's.
 static void lengths_of(__constant Frame *frame, Hull *hull, Surface surface, Net *points, Lengths *lengths) {
     const uint zero = frame->zero;
+    if (frame->flags & FLAG_FLAT) {
+        flatness_of(frame, hull, surface, lengths);
+        return;
+    }
     polygon_lengths(zero, points, lengths);
     if (!hull->is_gregory) {
+        with_half_lines(frame, hull, surface, lengths);
         return;
     }
     float sides[4];
-    for (uint side = 0u; side < 4u; side++) {
-        sides[side] = lengths->sides[side];
-    }
+    copy_sides(lengths, sides);
     sides_of_gregory(frame, hull, surface, sides);
     measured(frame, hull->near, &hull->follower, points);
     polygon_lengths(zero, points, lengths);
@@ -166,10 +279,25 @@ static bool is_empty(PixelBox box) {
     return box.x >= box.y || box.z >= box.w;
 }
 
-static uint refine(__constant Frame *frame, Surface surface, float u, float v) {
-    const bool open_u = u_level(surface) < MAX_SPLITS;
-    const bool open_v = v_level(surface) < MAX_SPLITS;
-    if (level(surface) + 1u >= frame->levels) {
+// Does a patch of this kind have two others beside one of these sides, a bit a side?
+static bool is_halved(uint kind, uint sides) {
+    return (kind & KIND_HALVED & sides) != 0u;
+}
+
+// Is there a level for each of so many splits?
+static bool may_split(__constant Frame *frame, Surface surface, uint times) {
+    return level(surface) + times < frame->levels;
+}
+
+// Most halvings of a patch of this kind along either parameter.
+static uint most_splits(uint kind) {
+    return (kind & (KIND_HALVED | KIND_HALVED << KIND_HALF_SHIFT)) != 0u ? JOINED_SPLITS : MAX_SPLITS;
+}
+
+static uint refine(__constant Frame *frame, Surface surface, uint kind, float u, float v) {
+    const bool open_u = u_level(surface) < most_splits(kind);
+    const bool open_v = v_level(surface) < most_splits(kind);
+    if (!may_split(frame, surface, 1u)) {
         return DRAW_LIMITED;
     }
     if (u > v) {
@@ -178,14 +306,38 @@ static uint refine(__constant Frame *frame, Surface surface, float u, float v) {
     return open_v ? SPLIT_V : open_u && u > frame->bound ? SPLIT_U : DRAW_LIMITED;
 }
 
-static uint by_extents(__constant Frame *frame, Surface surface, float u, float v) {
-    return max(u, v) <= frame->bound ? DRAW : refine(frame, surface, u, v);
+// What becomes of a surface that is so far from being flat: it is split into four, in two steps.
+static uint quartered(__constant Frame *frame, Surface surface, uint kind, float off) {
+    if (is_half_way(frame, surface)) {
+        return SPLIT_V;
+    }
+    const bool is_whole = level(surface) == 0u && is_halved(kind, KIND_HALVED);
+    if (off <= frame->bound && !is_whole) {
+        return DRAW;
+    }
+    const bool may = u_level(surface) < most_splits(kind) && may_split(frame, surface, 2u);
+    return may ? SPLIT_U : DRAW_LIMITED;
+}
+
+// What becomes of a surface in view, of a patch of this kind, that is so long.
+static uint by_extents(__constant Frame *frame, Surface surface, uint kind, float2 extents) {
+    if (frame->flags & FLAG_FLAT) {
+        return quartered(frame, surface, kind, max(extents.x, extents.y));
+    }
+    if (is_halved(kind, 3u) && u_level(surface) == 0u) {
+        return may_split(frame, surface, 1u) ? SPLIT_U : DRAW_LIMITED;
+    }
+    if (is_halved(kind, 12u) && v_level(surface) == 0u) {
+        return may_split(frame, surface, 1u) ? SPLIT_V : DRAW_LIMITED;
+    }
+    return max(extents.x, extents.y) <= frame->bound ? DRAW : refine(frame, surface, kind, extents.x, extents.y);
 }
 
 // The verdict, with sides and rates.
-static Verdict with_sides(__constant Frame *frame, Surface surface, const Lengths *lengths, Verdict verdict) {
+static Verdict with_sides(__constant Frame *frame, Surface surface, uint kind, const Lengths *lengths,
+                          Verdict verdict) {
     Side sides[4];
-    divide(frame, surface, lengths, verdict.code, sides);
+    divide(frame, surface, kind, lengths, verdict.code, sides);
     const Verdict halved = with_packed(verdict, sides, (uint2)(0u));
     if (verdict.code == SPLIT_U || verdict.code == SPLIT_V) {
         return halved;
@@ -194,9 +346,10 @@ static Verdict with_sides(__constant Frame *frame, Surface surface, const Length
 }
 
 // The verdict on a surface in view that is so long.
-static Verdict by_length(__constant Frame *frame, Surface surface, const Lengths *lengths, PixelBox pixels) {
-    const uint code = by_extents(frame, surface, lengths->u, lengths->v);
-    return with_sides(frame, surface, lengths, new_verdict(code, pixels));
+static Verdict by_length(__constant Frame *frame, Surface surface, uint kind, const Lengths *lengths,
+                         PixelBox pixels) {
+    const uint code = by_extents(frame, surface, kind, (float2)(lengths->u, lengths->v));
+    return with_sides(frame, surface, kind, lengths, new_verdict(code, pixels));
 }
 
 static bool beyond(__constant Frame *frame, const float *z, const float *c, float centre, float slack) {
@@ -217,9 +370,8 @@ static bool beside_the_view(__constant Frame *frame, const Net *part, float slac
         || beyond(frame, part->z, part->y, frame->centre_y, slack);
 }
 
-// How long a surface that crosses the near plane would be if all of it were there, and turned to the eye: the code of
-// the verdict on it.
-static uint code_if_cut(__constant Frame *frame, float near, Surface surface, const Net *part, Net *points) {
+// Lengths along u and along v of a surface that crosses the near plane: as if all of it were there, and turned to the eye.
+static float2 extents_if_cut(__constant Frame *frame, float near, const Net *part, Net *points) {
     const uint zero = frame->zero;
     const float scale = mul(frame->focal, recip(near));
     for (uint l = 0u; l < 16u; l++) {
@@ -229,7 +381,7 @@ static uint code_if_cut(__constant Frame *frame, float near, Surface surface, co
     }
     Lengths lengths;
     polygon_lengths(zero, points, &lengths);
-    return by_extents(frame, surface, lengths.u, lengths.v);
+    return (float2)(lengths.u, lengths.v);
 }
 
 // What is off the axis is seen farthest off it at the near plane.
@@ -267,15 +419,16 @@ static Verdict judge_seen(__constant Frame *frame, Hull *hull, Surface surface, 
     }
     lengths_of(frame, hull, surface, &points, &lengths);
     if (!crosses) {
-        return by_length(frame, surface, &lengths, pixels);
+        return by_length(frame, surface, hull->patch->kind, &lengths, pixels);
     }
     if (!strays.are_some) {
         pixels = pixels_if_cut(frame, hull, farthest);
     }
-    const uint code = nearest_smooth(zero, hull) < hull->near
-        ? code_if_cut(frame, hull->near, surface, &hull->part, &points)
-        : by_extents(frame, surface, lengths.u, lengths.v);
-    return with_sides(frame, surface, &lengths, new_verdict(code, pixels));
+    const bool is_cut = nearest_smooth(zero, hull) < hull->near && (frame->flags & FLAG_FLAT) == 0u;
+    const float2 extents =
+        is_cut ? extents_if_cut(frame, hull->near, &hull->part, &points) : (float2)(lengths.u, lengths.v);
+    const uint kind = hull->patch->kind, code = by_extents(frame, surface, kind, extents);
+    return with_sides(frame, surface, kind, &lengths, new_verdict(code, pixels));
 }
 
 static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
@@ -285,7 +438,7 @@ static Verdict judge(__constant Frame *frame, Hull *hull, Surface surface) {
         Lengths lengths;
         measured(frame, hull->near, &hull->part, &points);
         lengths_of(frame, hull, surface, &points, &lengths);
-        return by_length(frame, surface, &lengths, whole_window(frame));
+        return by_length(frame, surface, hull->patch->kind, &lengths, whole_window(frame));
     }
     const float nearest = nearest_of(zero, hull), farthest = farthest_of(zero, hull);
     const Strays strays = strays_of(frame, hull, surface);
@@ -314,11 +467,14 @@ static PixelBox pixels_of(__constant Frame *frame, const Hull *hull) {
 
 // The verdict by the rules of Weber's program.
 static Verdict bound_weber(__constant Frame *frame, Hull *hull, Surface surface) {
-    const uint code = weber_code(frame, &hull->whole, &hull->faces, hull->is_gregory, surface);
+    const bool has_faces = hull->is_gregory || hull->is_rational; // he knows no weights, and takes them for face points
+    const uint code = weber_code(frame, &hull->whole, &hull->faces, has_faces, surface);
     const Side live = {0u, 0u};
     const Side sides[4] = {live, live, live, live};
     PixelBox pixels = (PixelBox)(0);
     if (code == DRAW) {
+        // As it was before his points were looked at.
+        in_eye_space(frame->zero, hull->patch, hull->object, &hull->whole);
         put_part(frame, surface, hull);
         pixels = pixels_of(frame, hull);
     }
@@ -329,7 +485,7 @@ static Verdict bound_weber(__constant Frame *frame, Hull *hull, Surface surface)
 static Verdict bound_any(__constant Frame *frame, __global const Object *objects, __global const Patch *patches,
                          Surface surface) {
     Hull hull;
-    put_patch(frame->zero, frame->near, objects, patches, surface, &hull);
+    put_patch(frame, objects, patches, surface, &hull);
     if (frame->flags & FLAG_WEBER) {
         return bound_weber(frame, &hull, surface);
     }

@@ -9,16 +9,22 @@
 typedef struct {
     // Control net: coordinate k of control point l at 16 k + l.
     float net[48];
-    // Face points of a Gregory patch: coordinate k of point l at 8 k + l.
-    float faces[24];
-    // Not 0 if it is one.
-    uint is_gregory;
+    // What it has besides, if anything: HAS_…
+    uint has;
+    // Face points of a Gregory patch: coordinate k of point l at 8 k + l. Weights of a rational patch.
+    float more[24];
     // Tangents no longer than this have vanished.
     float flat_length;
 } Source;
 
+#define HAS_NOTHING 0u
+#define HAS_FACES 1u
+#define HAS_WEIGHTS 2u
+
 // A draw's own patch, and that of each word about its owners.
 #define SOURCES (1u + WORDS)
+// The same without the words about corners.
+#define SIDE_SOURCES (1u + 4u)
 
 // What all vertices of a grid share.
 typedef struct {
@@ -31,7 +37,7 @@ typedef struct {
     // Control points and derivatives across of each row's iso-curve: coordinate k of row r at 3 r + k.
     float4 row_point[3u * SIDE];
     float4 row_across[3u * SIDE];
-    // Only an object that is displaced has more than the first.
+    // More than the first has only an object that is displaced, or a patch with sides that are halves of others'.
     Source sources[SOURCES];
 } Grid;
 
@@ -169,23 +175,30 @@ INLINED void prepare_source(uint zero, bool stays, Transform transform, __global
     if (lane < 48u) {
         source->net[lane] = placed(zero, stays, transform, patch, lane / 16u, lane % 16u);
     }
+    const uint has = patch->faces == 0u ? HAS_NOTHING : is_rational(patch) ? HAS_WEIGHTS : HAS_FACES;
     if (lane < 24u) {
-        source->faces[lane] = placed(zero, stays, transform, record, lane / 8u, lane % 8u);
+        source->more[lane] = has == HAS_WEIGHTS ? record->x[lane % 16u]
+                                                : placed(zero, stays, transform, record, lane / 8u, lane % 8u);
     }
     if (lane == GROUP - 1u) {
-        source->is_gregory = patch->faces != 0u;
+        source->has = has;
     }
+}
+
+// How many sources a grid of a patch has.
+static uint sources_of(bool stays, __global const Patch *patch) {
+    return stays ? SOURCES : has_halves(patch) ? SIDE_SOURCES : 1u;
 }
 
 // Fills in what all vertices share: the sources, the columns' weights, then the rows' curves. A barrier must follow.
 INLINED void prepare(uint zero, Transform transform, __global const Object *object, __global const Patch *patches,
-                     Draw draw, __local Grid *grid, uint lane) {
-    __global const Patch *own = patches + draw.patch_id;
+                     uint own_record, Draw draw, __local Grid *grid, uint lane) {
+    __global const Patch *own = patches + own_record;
     const bool stays = is_displaced(object);
-    const uint sources = stays ? SOURCES : 1u;
+    const uint sources = sources_of(stays, own);
     for (uint slot = 0u; slot < sources; slot++) {
-        const uint patch_id = slot == 0u ? draw.patch_id : patch_in(own->owners[slot - 1u], draw.patch_id);
-        __global const Patch *patch = patches + patch_id;
+        __global const Patch *patch =
+            patches + (slot == 0u ? own_record : patch_in(own->owners[slot - 1u], own_record));
         prepare_source(zero, stays, transform, patch, patches + patch->faces, &grid->sources[slot], lane);
     }
     for (uint column = lane; column <= rate_u(draw); column += GROUP) {

@@ -6,18 +6,6 @@ static float change(uint zero, float4 along, float4 moved) {
     return add(add(first, mul(along.z, moved.z)), mul(along.w, moved.w));
 }
 
-static float4 add4(uint zero, float4 a, float4 b) {
-    return (float4)(add(a.x, b.x), add(a.y, b.y), add(a.z, b.z), add(a.w, b.w));
-}
-
-static float4 sub4(uint zero, float4 a, float4 b) {
-    return (float4)(sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z), sub(a.w, b.w));
-}
-
-static float4 mul4(uint zero, float4 a, float4 b) {
-    return (float4)(mul(a.x, b.x), mul(a.y, b.y), mul(a.z, b.z), mul(a.w, b.w));
-}
-
 // Bernstein weights of the inner points.
 static float4 inner_weights(uint zero, float4 cubic_u, float4 cubic_v) {
     return (float4)(mul(cubic_u.y, cubic_v.y), mul(cubic_u.y, cubic_v.z), mul(cubic_u.z, cubic_v.y),
@@ -61,25 +49,11 @@ static void evaluate_gregory(__constant Frame *frame, __local const Source *sour
     const float4 share = (float4)(a.x, b.x, c.x, d.x);
     const float4 along_u = (float4)(a.y, b.y, c.y, d.y), along_v = (float4)(a.z, b.z, c.z, d.z);
     __local const float *net = source->net;
-    __local const float *faces = source->faces;
+    __local const float *faces = source->more;
     const float3 x = gregory_coordinate(zero, net, faces, u, v, share, along_u, along_v);
     const float3 y = gregory_coordinate(zero, net + 16, faces + 8, u, v, share, along_u, along_v);
     const float3 z = gregory_coordinate(zero, net + 32, faces + 16, u, v, share, along_u, along_v);
     *position = (float3)(x.x, y.x, z.x);
     *du = (float3)(x.y, y.y, z.y);
     *dv = (float3)(x.z, y.z, z.z);
-}
-
-// Position of one vertex of a grid, and the derivatives there; `row` and `column` are where it is in the grid.
-static void evaluate_any(__constant Frame *frame, __local const Grid *grid, Owner owner, uint row, uint column,
-                         float3 *position, float3 *du, float3 *dv) {
-    __local const Source *source = grid->sources + owner.slot;
-    const uint2 at = owner.at;
-    if (source->is_gregory) {
-        evaluate_gregory(frame, source, at, position, du, dv);
-    } else if (owner.slot != 0u || at.x != grid->column_u[column] || at.y != grid->row_v[row]) {
-        evaluate_moved(frame->zero, source, at, position, du, dv);
-    } else {
-        evaluate(frame->zero, grid, row, column, position, du, dv);
-    }
 }

@@ -99,6 +99,8 @@ INLINED void position_and_normal(__constant Frame *frame, __global const Object 
     *normal = normal_of(zero, grid->sources + owner.slot, owner.at, du, dv);
     if (is_displaced(object)) {
         displace(zero, object, position, normal);
+    } else if (has_halves(patch)) {
+        *position = join(zero, patch, grid, at, *position);
     }
 }
 

@@ -115,8 +115,9 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     const bool is_one = index < grids[HEAD_COUNT];
     // Where there is no draw, the address of one all the same: compilers may load first and branch later.
     const Draw draw = draws[is_one ? grids[HEAD_START] + index : 0u];
-    __global const Patch *patch = patches + draw.patch_id;
-    __global const Object *object = objects + patch->object;
+    const Instance known = instance(frame, objects, patches, draw.patch_id);
+    __global const Patch *patch = patches + known.record;
+    __global const Object *object = objects + known.object;
     const uint base = grid_base(frame, index);
     if (!is_one) {
         return;
@@ -124,7 +125,7 @@ void stage_draw(__constant Frame *frame, __global const Object *objects, __globa
     if (lane == GROUP - 1u) {
         clear_measures(&measures);
     }
-    prepare(frame->zero, to_eye_of(object), object, patches, draw, &grid, lane);
+    prepare(frame->zero, to_eye_of(object), object, patches, known.record, draw, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     dice_and_shade(frame, object, patch, draw, &grid, &measures, grids, base, lane);
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);

@@ -43,12 +43,12 @@ static void put_inner(uint zero, const Faces *faces, Net *net, uint m, float sha
     net->z[inner(m)] = add(faces->z[4u + m], moved.z);
 }
 
-// Distances of the low and high end of a range, start and size, from the end 0 or 1 of its parameter.
+// Distances of the low and high end of a range from the end 0 or 1 of its parameter.
 static float2 ends(uint zero, uint2 range, uint end) {
     if (end == 0u) {
-        return (float2)(param(zero, range.x), param(zero, range.x + range.y));
+        return (float2)(param(zero, range.x), param(zero, range.y));
     }
-    return (float2)(param(zero, PARAM_ONE - range.x), param(zero, PARAM_ONE - range.x - range.y));
+    return (float2)(param(zero, PARAM_ONE - range.x), param(zero, PARAM_ONE - range.y));
 }
 
 // The smaller of the two first.
@@ -72,10 +72,10 @@ static float middle(uint zero, float2 a, float2 b) {
     return mul(0.5f, add(share_at(zero, a.y, b.x), share_at(zero, a.x, b.y)));
 }
 
-// The middles of all shares on a surface into the net of the whole patch; gives how far the surface can be
-// from that net's.
-static float centre_inner(uint zero, const Faces *faces, Net *net, Surface surface, bool exchanged) {
-    const uint2 along_u = (uint2)(surface.u, u_size(surface)), along_v = (uint2)(surface.v, v_size(surface));
+// The middles of all shares on a surface, given by its range, into the net of the whole patch; gives how far the surface
+// can be from that net's.
+static float centre_inner(uint zero, const Faces *faces, Net *net, uint4 range, bool exchanged) {
+    const uint2 along_u = range.xy, along_v = range.zw;
     const uint2 first = exchanged ? along_v : along_u, second = exchanged ? along_u : along_v;
     float spread = 0.0f;
     for (uint m = 0u; m < 4u; m++) {
@@ -100,12 +100,12 @@ static float component(float4 all, uint k) {
 }
 
 // Moves the control points of a surface to where the shares at its corners, and between them, take them.
-static void follow(uint zero, const Faces *faces, Net *part, Surface surface, bool exchanged) {
-    const uint2 along_u = (uint2)(surface.u, u_size(surface)), along_v = (uint2)(surface.v, v_size(surface));
+static void follow(uint zero, const Faces *faces, Net *part, uint4 range, bool exchanged) {
+    const uint2 along_u = range.xy, along_v = range.zw;
     const uint2 first = exchanged ? along_v : along_u, second = exchanged ? along_u : along_v;
     float4 weights_u[4], weights_v[4];
-    blossom(zero, surface.u, surface.u + u_size(surface), weights_u);
-    blossom(zero, surface.v, surface.v + v_size(surface), weights_v);
+    blossom(zero, range.x, range.y, weights_u);
+    blossom(zero, range.z, range.w, weights_v);
     for (uint m = 0u; m < 4u; m++) {
         const float2 a = ends(zero, first, m / 2u), b = ends(zero, second, m % 2u);
         const float3 from = difference(zero, faces, m);
@@ -149,8 +149,8 @@ static float3 blend_here(__constant Frame *frame, uint m, float u, float v) {
     return frame->flags & FLAG_WEBER ? weber_blend_at(frame->zero, m, u, v) : blend_at(frame->zero, m, u, v);
 }
 
-// A point of a patch by itself, as `position_at` and `evaluate_gregory` in core find it. The inner points of a Gregory
-// patch are put into its net, which is then of no more use but for other points.
+// A point of a patch by itself, as `position_at` and `evaluate_gregory` in core find it; not of a rational one. The inner
+// points of a Gregory patch are put into its net, which is then of no more use but for other points.
 static float3 point_at(__constant Frame *frame, Net *net, const Faces *faces, bool is_gregory, uint u, uint v) {
     const uint zero = frame->zero;
     if (is_gregory) {
@@ -158,12 +158,5 @@ static float3 point_at(__constant Frame *frame, Net *net, const Faces *faces, bo
             put_inner(zero, faces, net, m, blend_here(frame, m, param(zero, u), param(zero, v)).x);
         }
     }
-    const float4 row = cubic(zero, param(zero, v)), weights = cubic(zero, param(zero, u));
-    float4 x, y, z;
-    for (uint i = 0u; i < 4u; i++) {
-        x[i] = blend4(zero, row, vload4(i, net->x));
-        y[i] = blend4(zero, row, vload4(i, net->y));
-        z[i] = blend4(zero, row, vload4(i, net->z));
-    }
-    return (float3)(blend4(zero, weights, x), blend4(zero, weights, y), blend4(zero, weights, z));
+    return position_at(zero, net, (uint2)(u, v));
 }

@@ -87,9 +87,10 @@ void stage_mesh(__constant Frame *frame, __global const Object *objects, __globa
     const uint lane = get_local_id(0), index = get_group_id(0), zero = frame->zero;
     const Draw draw = draws[index];
     const MeshPlace place = places[index];
-    __global const Patch *patch = patches + draw.patch_id;
-    __global const Object *object = objects + patch->object;
-    prepare(zero, as_it_is(zero), object, patches, draw, &grid, lane);
+    const Instance known = instance(frame, objects, patches, draw.patch_id);
+    __global const Patch *patch = patches + known.record;
+    __global const Object *object = objects + known.object;
+    prepare(zero, as_it_is(zero), object, patches, known.record, draw, &grid, lane);
     barrier(CLK_LOCAL_MEM_FENCE);
     put_vertices(frame, object, patch, draw, &grid, points, vertices + place.vertex, lane);
     barrier(CLK_LOCAL_MEM_FENCE);

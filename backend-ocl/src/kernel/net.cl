@@ -104,15 +104,33 @@ static void combine_v(uint zero, const float *c, const float4 *weights, float *o
     }
 }
 
-static void restricted(uint zero, const Net *net, Surface surface, Net *part) {
+// The low and the high end of a surface's u, then those of its v.
+static uint4 range_of(Surface surface) {
+    return (uint4)(surface.u, surface.u + u_size(surface), surface.v, surface.v + v_size(surface));
+}
+
+// The control points of a range; `Net::between` in core.
+static void part_between(uint zero, const Net *net, uint4 range, Net *part) {
     float4 along_u[4], along_v[4];
     float rows[16];
-    blossom(zero, surface.u, surface.u + u_size(surface), along_u);
-    blossom(zero, surface.v, surface.v + v_size(surface), along_v);
+    blossom(zero, range.x, range.y, along_u);
+    blossom(zero, range.z, range.w, along_v);
     combine_u(zero, net->x, along_u, rows);
     combine_v(zero, rows, along_v, part->x);
     combine_u(zero, net->y, along_u, rows);
     combine_v(zero, rows, along_v, part->y);
     combine_u(zero, net->z, along_u, rows);
     combine_v(zero, rows, along_v, part->z);
+}
+
+// A point of a Bézier patch by itself, as core/src/kernel/dice.rs finds it.
+static float3 position_at(uint zero, const Net *net, uint2 at) {
+    const float4 row = cubic(zero, param(zero, at.y)), weights = cubic(zero, param(zero, at.x));
+    float4 x, y, z;
+    for (uint i = 0u; i < 4u; i++) {
+        x[i] = blend4(zero, row, vload4(i, net->x));
+        y[i] = blend4(zero, row, vload4(i, net->y));
+        z[i] = blend4(zero, row, vload4(i, net->z));
+    }
+    return (float3)(blend4(zero, weights, x), blend4(zero, weights, y), blend4(zero, weights, z));
 }

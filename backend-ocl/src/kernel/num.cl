@@ -144,6 +144,19 @@ static float num_largest3(float3 a) {
     return max(max(abs(a.x), abs(a.y)), abs(a.z));
 }
 
+// Four numbers at once.
+static float4 add4(uint zero, float4 a, float4 b) {
+    return (float4)(add(a.x, b.x), add(a.y, b.y), add(a.z, b.z), add(a.w, b.w));
+}
+
+static float4 sub4(uint zero, float4 a, float4 b) {
+    return (float4)(sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z), sub(a.w, b.w));
+}
+
+static float4 mul4(uint zero, float4 a, float4 b) {
+    return (float4)(mul(a.x, b.x), mul(a.y, b.y), mul(a.z, b.z), mul(a.w, b.w));
+}
+
 // The integers' own.
 static int lesser(int a, int b) {
     return a < b ? a : b;

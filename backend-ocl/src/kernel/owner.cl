@@ -33,17 +33,25 @@ static uint word_for(uint2 at) {
     return ends_u ? 2u + high_u : NO_WORD;
 }
 
+// u and v of what lies at `along` on a side of a patch; `on_side` in core.
+static uint2 on_patch_side(uint side, uint along) {
+    const uint across = (side & 1u) * PARAM_ONE;
+    return side < 2u ? (uint2)(along, across) : (uint2)(across, along);
+}
+
 // Where the owner that a word names has the vertex that lies at `along` on a side.
 static uint2 place_on(uint word, uint along) {
     const uint number = (word >> 1) & 3u;
     const uint first = (number & 1u) * PARAM_ONE, second = (number >> 1) * PARAM_ONE;
     const bool is_corner = (word & OWNER_IS_CORNER) != 0u, is_reversed = (word & OWNER_IS_REVERSED) != 0u;
+    const bool is_half = (word & OWNER_IS_HALF) != 0u;
     if (is_corner && !is_reversed) {
-        return (uint2)(first, second);
+        return is_half ? on_patch_side(number, PARAM_ONE / 2u) : (uint2)(first, second);
     }
     const bool turns = is_reversed && (!is_corner || along > PARAM_ONE / 2u);
     const uint there = turns ? PARAM_ONE - along : along;
-    return number < 2u ? (uint2)(there, first) : (uint2)(first, there);
+    const uint start = (word & OWNER_IS_SECOND) != 0u ? PARAM_ONE / 2u : 0u;
+    return on_patch_side(number, is_half ? start + there / 2u : there);
 }
 
 // Where a vertex of a patch is evaluated: on source 0, itself, or on that of the word about it.

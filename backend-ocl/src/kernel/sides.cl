@@ -5,11 +5,15 @@
 // can be from the one whose hull it is, and the sum of both. Of a Gregory patch also another net, whose lengths are the
 // surface's, but which bounds nothing.
 typedef struct {
+    __global const Patch *patches;
+    __global const Patch *patch;
+    __global const Object *object;
     Net whole;
     Faces faces;
     Net part;
     Net follower;
     bool is_gregory;
+    bool is_rational;
     float slack;
     float reach;
     float apart;
@@ -85,6 +89,12 @@ static void put_sides(const float *sides, Lengths *lengths) {
     }
 }
 
+static void copy_sides(const Lengths *lengths, float *sides) {
+    for (uint side = 0u; side < 4u; side++) {
+        sides[side] = lengths->sides[side];
+    }
+}
+
 // Length of a polygon of three pieces; the same from either end.
 static float polygon(uint zero, float a, float b, float c) {
     return add(add(a, c), b);
@@ -97,13 +107,25 @@ static uint steps_of(__constant Frame *frame, float length) {
     return (uint)(-floor(neg(steps)));
 }
 
-// How the sides of a surface are divided: as they were, unless they are live and short enough; or long, but may not be
-// halved any more.
-static void divide(__constant Frame *frame, Surface surface, const Lengths *lengths, uint code, Side *sides) {
+// Has a surface that is split into four been split once?
+static bool is_half_way(__constant Frame *frame, Surface surface) {
+    return (frame->flags & FLAG_FLAT) != 0u && u_level(surface) > v_level(surface);
+}
+
+// Is a side all of one side of its patch, with two patches on the other side of it?
+static bool is_to_be_halved(Surface surface, uint kind, uint side) {
+    return (kind & KIND_HALVED & 1u << side) != 0u && extent_of(surface, side).y == PARAM_BITS
+        && is_outer(surface, side);
+}
+
+// How the sides of a surface of a patch of this kind are divided: as they were, unless they are live and short enough; or
+// long, but may not be halved any more. Half way through a split into four nothing is decided.
+static void divide(__constant Frame *frame, Surface surface, uint kind, const Lengths *lengths, uint code, Side *sides) {
     for (uint number = 0u; number < 4u; number++) {
         const float length = lengths->sides[number];
         Side side = side_of(surface, number);
-        const bool is_last = length <= frame->bound || code == DRAW_LIMITED;
+        const bool is_short = length <= frame->bound && !is_to_be_halved(surface, kind, number);
+        const bool is_last = (is_short && !is_half_way(frame, surface)) || code == DRAW_LIMITED;
         if (side.steps == 0u && is_last && (frame->flags & FLAG_NAIVE) == 0u) {
             side.steps = steps_of(frame, length);
             side.bits = extent_of(surface, number).y;
@@ -124,6 +146,46 @@ static uint2 rates(__constant Frame *frame, Surface surface, const Lengths *leng
         return (uint2)(frame->rate);
     }
     return (uint2)(rate_for(frame, surface, lengths->u, 0u), rate_for(frame, surface, lengths->v, 2u));
+}
+
+// Length of a line's control polygon on screen, or how far it is from its chord.
+static float line_extent(__constant Frame *frame, float near, float3 *line) {
+    const uint zero = frame->zero;
+    if (frame->flags & FLAG_FLAT) {
+        return line_flatness(frame, near, line);
+    }
+    for (uint k = 0u; k < 4u; k++) {
+        line[k] = measured_point(frame, near, line[k]);
+    }
+    return polygon(zero, distance_of(zero, line[0], line[1]), distance_of(zero, line[1], line[2]),
+                   distance_of(zero, line[2], line[3]));
+}
+
+// The same of a side that is half of another patch's side, given what it is there.
+static float halved_extent(__constant Frame *frame, const Hull *hull, Surface surface, uint side) {
+    const uint2 extent = extent_of(surface, side);
+    float3 line[4];
+    line_of_half(frame->zero, hull->patches, hull->object, hull->patch->owners[side], extent.x,
+                 extent.x + (1u << extent.y), line);
+    return line_extent(frame, hull->near, line);
+}
+
+// Is a side of a surface half of another patch's side, or a piece of it?
+static bool is_half_line(__global const Patch *patch, Surface surface, uint side) {
+    return is_half(patch, side) && is_outer(surface, side);
+}
+
+// Lengths of the sides of a surface, those replaced that are halves of other patches' sides.
+static void with_half_lines(__constant Frame *frame, const Hull *hull, Surface surface, Lengths *lengths) {
+    float sides[4];
+    if (!has_halves(hull->patch)) {
+        return;
+    }
+    for (uint side = 0u; side < 4u; side++) {
+        const bool is_there = is_half_line(hull->patch, surface, side);
+        sides[side] = is_there ? halved_extent(frame, hull, surface, side) : lengths->sides[side];
+    }
+    put_sides(sides, lengths);
 }
 
 // Length of a side inside a Gregory patch: four chords between its points.
@@ -173,6 +235,17 @@ static float wobble(__constant Frame *frame, float off_axis, float spread, float
     return mul(mul(add(frame->focal, off_axis), spread), recip(nearest));
 }
 
+// Where a vertex of the hull's patch is.
+static float3 position_on(__constant Frame *frame, Hull *hull, uint2 at) {
+    if (hull->is_rational) {
+        return rational_point(frame->zero, &hull->whole, hull->patches + hull->patch->faces, at);
+    }
+    if (hull->is_gregory) {
+        return point_at(frame, &hull->whole, &hull->faces, true, at.x, at.y);
+    }
+    return joined_position(frame->zero, hull->patches, hull->object, hull->patch, &hull->whole, at);
+}
+
 static Strays strays_of(__constant Frame *frame, Hull *hull, Surface surface) {
     const uint zero = frame->zero;
     const Reach none = {0.0f, 0.0f};
@@ -182,7 +255,7 @@ static Strays strays_of(__constant Frame *frame, Hull *hull, Surface surface) {
             continue;
         }
         const uint2 at = corner(surface, number);
-        const float3 point = point_at(frame, &hull->whole, &hull->faces, hull->is_gregory, at.x, at.y);
+        const float3 point = position_on(frame, hull, at);
         const float2 seen = point_on_screen(frame, frame->near, point);
         const float away = neg(point.z);
         const float nearest = sub(away, hull->reach), farthest = add(away, hull->reach);
