@@ -85,12 +85,7 @@ const ALLOWED: &[Allowed] = &[
         operator: " && ",
         why: "all write the same, and fewer groups than a dimension has are as many as were asked for",
     },
-    Allowed {
-        file: "dice_any.wgsl",
-        line: "if lane == 0u {",
-        operator: " == ",
-        why: "all write the same",
-    },
+    Allowed { file: "dice_any.wgsl", line: "if lane == 0u {", operator: " == ", why: "all write the same" },
     Allowed {
         file: "draw.wgsl",
         line: "let narrow = atomicLoad(&high_x) - atomicLoad(&low_x) <= NARROW",
