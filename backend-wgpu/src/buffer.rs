@@ -23,6 +23,8 @@ pub struct WgpuBuffer {
     more: Option<wgpu::Buffer>,
     /// Was anything ever written to it that only the kernels for any patch and profile know?
     is_general: AtomicBool,
+    /// Does the frame in it ask for flat surfaces?
+    is_flat: AtomicBool,
     allocated: Arc<AtomicU64>,
 }
 
@@ -36,8 +38,9 @@ impl WgpuBuffer {
         allocated: &Arc<AtomicU64>,
     ) -> Self {
         allocated.fetch_add(entries * layout.size as u64, Ordering::Relaxed);
-        let (is_general, allocated) = (AtomicBool::new(false), Arc::clone(allocated));
-        Self { name, layout, entries, memory, more, is_general, allocated }
+        let (is_general, is_flat) = (AtomicBool::new(false), AtomicBool::new(false));
+        let allocated = Arc::clone(allocated);
+        Self { name, layout, entries, memory, more, is_general, is_flat, allocated }
     }
 
     /// Number of its entries.
@@ -52,7 +55,10 @@ impl WgpuBuffer {
         } else if T::LAYOUT == Object::LAYOUT {
             bytemuck::cast_slice::<T, Object>(data).iter().any(|object| object.reach > 0.0)
         } else if T::LAYOUT == Frame::LAYOUT {
-            bytemuck::cast_slice::<T, Frame>(data).iter().any(|frame| frame.flags & GENERAL != 0)
+            let frames: &[Frame] = bytemuck::cast_slice(data);
+            let is_flat = frames.iter().any(|frame| frame.flags & (FLAG_FLAT | FLAG_WEBER) == FLAG_FLAT);
+            self.is_flat.store(is_flat, Ordering::Relaxed);
+            frames.iter().any(|frame| frame.flags & GENERAL != 0)
         } else {
             false
         };
@@ -62,6 +68,11 @@ impl WgpuBuffer {
     /// Does it need the kernels for any patch and profile?
     pub(crate) fn is_general(&self) -> bool {
         self.is_general.load(Ordering::Relaxed)
+    }
+
+    /// Does it need the kernels for surfaces that are to be flat? By Weber's rules none is.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.is_flat.load(Ordering::Relaxed)
     }
 
     /// Its second piece.

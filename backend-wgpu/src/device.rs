@@ -610,7 +610,10 @@ impl Device for WgpuDevice {
         }
         let groups = self.groups(stage, items, buffers)?;
         let memories: Vec<_> = memories.into_iter().chain(more).collect();
+        let is_flat = buffers.iter().any(|buffer| buffer.is_flat());
         let which = match stage {
+            Stage::Bound if is_flat => Which::BoundFlat,
+            Stage::Local if is_flat => Which::LocalFlat,
             Stage::Bound if is_general => Which::BoundAny,
             Stage::Local if is_general => Which::LocalAny,
             _ => Which::Stage(stage),

@@ -42,6 +42,8 @@ files! {
     BOUND: "bound",
     BOUND_BEZIER: "bound_bezier",
     BOUND_ANY: "bound_any",
+    BOUND_SIZED: "bound_sized",
+    BOUND_FLAT: "bound_flat",
     BOUND_BATCH: "bound_batch",
     DICE: "dice",
     DICE_BEZIER: "dice_bezier",
@@ -99,10 +101,14 @@ pub enum Which {
     /// A stage other than the two fused ones; of `bound` and `local`, what plain scenes need: Bézier patches that have their
     /// sides for themselves and are not displaced, no two objects the same ones, in our own profile, by size.
     Stage(Stage),
-    /// All of `bound`.
+    /// All of `bound`, where surfaces are to be small.
     BoundAny,
-    /// All of `local`.
+    /// All of `bound`, where surfaces are to be flat.
+    BoundFlat,
+    /// All of `local`, where surfaces are to be small.
     LocalAny,
+    /// All of `local`, where surfaces are to be flat.
+    LocalFlat,
     /// Turns a batch into a number of groups.
     Arrange,
     /// The next chunk of draws.
@@ -138,14 +144,16 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 29] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
+        Self::BoundFlat,
         Self::Stage(Stage::Scan),
         Self::Stage(Stage::Split),
         Self::Stage(Stage::Local),
         Self::LocalAny,
+        Self::LocalFlat,
         Self::Stage(Stage::Balance),
         Self::Stage(Stage::Deal),
         Self::Stage(Stage::Blend),
@@ -180,7 +188,9 @@ impl Which {
             self,
             Self::Stage(Stage::Local | Stage::Blend | Stage::MeshPlaces | Stage::Mesh)
                 | Self::BoundAny
+                | Self::BoundFlat
                 | Self::LocalAny
+                | Self::LocalFlat
                 | Self::DrawAny
                 | Self::SortLast
                 | Self::Merge
@@ -195,7 +205,9 @@ impl Which {
             Self::Arrange => "arrange",
             Self::ArrangeDraw => "arrange_draw",
             Self::BoundAny => "bound (any)",
+            Self::BoundFlat => "bound (flat)",
             Self::LocalAny => "local (any)",
+            Self::LocalFlat => "local (flat)",
             Self::Draw => "draw",
             Self::DrawAny => "draw (any)",
             Self::CountBins => "count_bins",
@@ -214,10 +226,10 @@ impl Which {
     pub const fn stages(self) -> &'static [Stage] {
         match self {
             Self::Stage(Stage::Take) => &[Stage::Take],
-            Self::Stage(Stage::Bound) | Self::BoundAny => &[Stage::Bound],
+            Self::Stage(Stage::Bound) | Self::BoundAny | Self::BoundFlat => &[Stage::Bound],
             Self::Stage(Stage::Scan) => &[Stage::Scan],
             Self::Stage(Stage::Split) => &[Stage::Split],
-            Self::Stage(Stage::Local) | Self::LocalAny => &[Stage::Local],
+            Self::Stage(Stage::Local) | Self::LocalAny | Self::LocalFlat => &[Stage::Local],
             Self::Stage(Stage::Balance) => &[Stage::Balance],
             Self::Stage(Stage::Deal) => &[Stage::Deal],
             Self::Stage(Stage::Blend) => &[Stage::Blend],
@@ -276,6 +288,30 @@ impl Which {
                 WEBER,
                 SIDES,
                 FLAT,
+                BOUND_SIZED,
+                BOUND_ANY,
+                BOUND,
+                BOUND_BATCH,
+            ],
+            Self::BoundFlat => &[
+                GEN,
+                ITEMS,
+                NUM,
+                SURFACE,
+                BORDER,
+                BEZIER,
+                NET,
+                EYE,
+                PROJECT,
+                INSTANCE,
+                OWNER,
+                HALF,
+                RATIONAL,
+                GREGORY,
+                WEBER,
+                SIDES,
+                FLAT,
+                BOUND_FLAT,
                 BOUND_ANY,
                 BOUND,
                 BOUND_BATCH,
@@ -302,8 +338,36 @@ impl Which {
                 LOCAL,
             ],
             Self::LocalAny => &[
+                GEN,
+                ITEMS,
+                COUNTS,
+                NUM,
+                SURFACE,
+                BORDER,
+                BEZIER,
+                NET,
+                EYE,
+                PROJECT,
+                INSTANCE,
+                OWNER,
+                HALF,
+                RATIONAL,
+                GREGORY,
+                WEBER,
+                SIDES,
+                FLAT,
+                BOUND_SIZED,
+                BOUND_ANY,
+                BOUND,
+                TAKE,
+                SCAN,
+                SPLIT,
+                LOCAL,
+            ],
+            Self::LocalFlat => &[
                 GEN, ITEMS, COUNTS, NUM, SURFACE, BORDER, BEZIER, NET, EYE, PROJECT, INSTANCE, OWNER, HALF,
-                RATIONAL, GREGORY, WEBER, SIDES, FLAT, BOUND_ANY, BOUND, TAKE, SCAN, SPLIT, LOCAL,
+                RATIONAL, GREGORY, WEBER, SIDES, FLAT, BOUND_FLAT, BOUND_ANY, BOUND, TAKE, SCAN, SPLIT,
+                LOCAL,
             ],
             Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
             Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
@@ -405,8 +469,8 @@ impl Which {
         let write =
             |names: &[&'static str]| names.iter().map(|name| (*name, Access::Write)).collect::<Vec<_>>();
         match self {
-            Self::BoundAny => Self::Stage(Stage::Bound).bindings(),
-            Self::LocalAny => Self::Stage(Stage::Local).bindings(),
+            Self::BoundAny | Self::BoundFlat => Self::Stage(Stage::Bound).bindings(),
+            Self::LocalAny | Self::LocalFlat => Self::Stage(Stage::Local).bindings(),
             Self::DrawAny => Self::Draw.bindings(),
             Self::Stage(stage) => {
                 let own = stage.bindings().iter().map(|binding| (binding.name, binding.access));

@@ -17,10 +17,6 @@ var<private> IS_RATIONAL: bool;
 // What displacement can do, along any axis of eye space.
 var<private> REACH: f32;
 
-fn is_flat() -> bool {
-    return (frame.flags & FLAG_FLAT) != 0u;
-}
-
 fn is_whole() -> bool {
     return (frame.flags & FLAG_WHOLE) != 0u;
 }
@@ -311,7 +307,7 @@ fn around(place: f32, by: f32) -> Reach {
 // Of a rational patch, the control points of all of it are multiplied by their weights.
 fn hull_of_any(net: Net, surface: Surface) -> Hull {
     let range = range_of(surface);
-    let exchanged = (frame.flags & FLAG_WEBER) != 0u;
+    let exchanged = is_weber();
     var whole = net;
     var slack = mul(extent(net), ROUNDING);
     var spread = 0.0;
@@ -361,7 +357,7 @@ fn bound_any(surface: Surface) -> Verdict {
     }
     let whole = in_eye_space(RECORD, OBJECT);
     let hull = hull_of_any(whole, surface);
-    if (frame.flags & FLAG_WEBER) != 0u {
+    if is_weber() {
         return bound_weber(surface, whole, hull, more != 0u);
     }
     return judge(surface, hull);
