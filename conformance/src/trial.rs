@@ -2,7 +2,8 @@
 //!
 //! A test without harness calls [`main`]. Run as it is, it starts itself again for every mutant of a sample, or
 //! for all of them where the environment has `MUTANTS=all` (or a number a file); with `MUTANTS_OF` set, only
-//! for the files named in it, separated by commas; with `MUTANTS_VERBOSE` each is told of as it ends.
+//! for the files named in it, separated by commas; with `MUTANTS_SHARE` = `k/n` only for every n-th file, from the k-th on;
+//! with `MUTANTS_VERBOSE` each is told of as it ends.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -210,7 +211,7 @@ fn fates_of(tasks: &[Task<'_>]) -> Vec<Fate> {
 
 /// Stages whose comparison noticed nothing, if all files were tried.
 fn blind(fates: &[Fate]) -> impl Iterator<Item = &'static str> {
-    let all_files = std::env::var_os("MUTANTS_OF").is_none();
+    let all_files = std::env::var_os("MUTANTS_OF").is_none() && share().is_none();
     let names = Stage::ALL.into_iter().map(Stage::name);
     names.filter(move |&name| all_files && !fates.contains(&Fate::Noticed(name)))
 }
@@ -227,10 +228,23 @@ fn further<'a>(files: &'a [File], stage: &str, done: &[Task<'_>]) -> Vec<Task<'a
     chosen.map(|(number, mutant)| Task { file, number, mutant }).collect()
 }
 
+/// `MUTANTS_SHARE`: which of how many shares of the files are tried.
+fn share() -> Option<(usize, usize)> {
+    let text = std::env::var("MUTANTS_SHARE").ok()?;
+    let (which, of) = text.split_once('/')?;
+    let (which, of) = (which.parse().ok()?, of.parse().ok()?);
+    (of > 0).then_some((which, of))
+}
+
+/// Is a file in the share that is tried?
+fn is_shared(name: &str) -> bool {
+    share().is_none_or(|(which, of)| name.bytes().map(usize::from).sum::<usize>() % of == which % of)
+}
+
 /// The mutants of a file that are to be run.
 fn tasks(file: &File, usual: usize) -> Vec<Task<'_>> {
     let only = std::env::var("MUTANTS_OF").unwrap_or_default();
-    if !only.is_empty() && !only.split(',').any(|name| name == file.name) {
+    if (!only.is_empty() && !only.split(',').any(|name| name == file.name)) || !is_shared(file.name) {
         return Vec::new();
     }
     let most = match std::env::var("MUTANTS").as_deref() {
