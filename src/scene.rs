@@ -336,11 +336,22 @@ impl Scene {
         if options.oracle == Oracle::Flatness {
             return self.check_flatness(options);
         }
-        if self.is_displaced() && options.profile == Profile::Weber2014 {
-            let problem = "an object is displaced, which the rules of Weber's program do not know";
-            return Err(Error::scene(problem, "leave out --profile weber2014, or the displacement"));
+        if options.profile == Profile::Weber2014 {
+            return self.check_weber();
         }
         Ok(())
+    }
+
+    /// The rules of Weber's program know what its scenes have.
+    fn check_weber(&self) -> Result<()> {
+        let problem = if self.is_displaced() {
+            "an object is displaced, which the rules of Weber's program do not know"
+        } else if self.rational_count() > 0 {
+            "a patch is rational, which the rules of Weber's program do not know"
+        } else {
+            return Ok(());
+        };
+        Err(Error::scene(problem, "leave out --profile weber2014, or the object"))
     }
 
     fn check_flatness(&self, options: &FrameOptions) -> Result<()> {

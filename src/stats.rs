@@ -2,6 +2,7 @@
 //!
 //! Fields are only ever added under the same `version`.
 
+use micropoly_core::camera::Oracle;
 use micropoly_core::memory::Sizes;
 use micropoly_core::pattern::Window;
 use micropoly_core::render::Load;
@@ -102,6 +103,10 @@ pub struct Options {
     pub dice: u32,
     /// Length of a micropolygon in pixels.
     pub micropolygon_size: f32,
+    /// When surfaces were split no further.
+    pub oracle: &'static str,
+    /// How far what was drawn might be from the surface, pixels, if they had to be flat.
+    pub tolerance: Option<f32>,
     /// How grids meet.
     pub borders: &'static str,
     /// Levels.
@@ -175,6 +180,8 @@ fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
         bound: frame.bound,
         dice: frame.rate,
         micropolygon_size: frame.size,
+        oracle: frame.oracle.name(),
+        tolerance: (frame.oracle == Oracle::Flatness).then_some(frame.tolerance),
         borders: frame.borders.name(),
         max_depth: frame.levels,
         scheduler: sizes.scheduler.name(),

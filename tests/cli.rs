@@ -596,3 +596,11 @@ fn what_flatness_does_not_know_is_refused() {
     let (code, text, _) = render(Path::new("scenes/teapot.toml"), &weber);
     assert!(code == 1 && text.contains("--oracle size"), "{text}");
 }
+
+#[test]
+fn what_webers_program_does_not_know_is_refused() {
+    for (scene, what) in [("scenes/displaced.toml", "displaced"), ("scenes/shapes.rib", "rational")] {
+        let (code, text, _) = render(Path::new(scene), &["--profile", "weber2014"]);
+        assert!(code == 1 && text.contains(what) && text.contains("help:"), "{text}");
+    }
+}

@@ -14,36 +14,23 @@ use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::backend::Device;
 use micropoly_core::known::{Mismatch, check};
 
-const SCENES: [&str; 9] = [
-    "teapot.toml",
-    "eyesplit.toml",
-    "spheres.toml",
-    "still-life.toml",
-    "gregory.toml",
-    "displaced.toml",
-    "copies.toml",
-    "shapes.rib",
-    FLAT,
-];
+/// Scenes that are compared stage by stage, and as pictures are: with several samples a pixel, by both rasterisers, in parts.
+const USUAL: [&str; 6] =
+    ["teapot.toml", "eyesplit.toml", "spheres.toml", "still-life.toml", "gregory.toml", "displaced.toml"];
+/// Of all kinds of shapes; as pictures they would take minutes on devices that only pretend to be a GPU.
+const SHAPES: [&str; 3] = ["copies.toml", "shapes.rib", FLAT];
 /// The shapes again, split until they are flat.
 const FLAT: &str = "shapes.rib, flat";
-/// Scenes that are also rendered as pictures are: with several samples a pixel, by both rasterisers, in parts, with all that
-/// blurs them and can be seen through in them.
-const PICTURES: [&str; 9] = [
-    "teapot.toml",
-    "eyesplit.toml",
-    "spheres.toml",
-    "still-life.toml",
-    "gregory.toml",
-    "displaced.toml",
-    "glass.toml",
-    "spinning.toml",
-    "focus.toml",
-];
+/// What is blurred, and what can be seen through: pictures only.
+const BLURRED: [&str; 3] = ["glass.toml", "spinning.toml", "focus.toml"];
 const SIZES: [(u32, u32); 3] = [(160, 90), (320, 180), (640, 360)];
 /// One more, where it is not a matter of minutes: not on devices that only pretend to be a GPU.
 const LARGE: (u32, u32) = (1280, 720);
 const BATCHES: [u32; 3] = [500, 4096, 100_000];
+
+fn scenes() -> impl Iterator<Item = &'static str> {
+    USUAL.into_iter().chain(SHAPES)
+}
 
 fn load(file: &str) -> Scene {
     Scene::load(format!("{}/../scenes/{file}", env!("CARGO_MANIFEST_DIR"))).expect("a scene")
@@ -81,8 +68,7 @@ impl Job for RunAll<'_> {
 
 #[test]
 fn all_backends_give_the_bits_of_the_snapshot() {
-    let cases: Vec<Case> = SCENES
-        .into_iter()
+    let cases: Vec<Case> = scenes()
         .flat_map(|scene| {
             [SIZES[0], SIZES[1], SIZES[2], LARGE].map(|(width, height)| case(scene, width, height))
         })
@@ -96,8 +82,8 @@ fn all_backends_give_the_bits_of_the_snapshot() {
         for (case, _, outcome) in with_device(entry, *threads, RunAll(&chosen)).expect("opens") {
             insta::allow_duplicates! { insta::assert_json_snapshot!(case, outcome) };
         }
-        let sizes = chosen.len() / SCENES.len();
-        let runs = format!("{} scenes at {sizes} sizes in {} batch sizes", SCENES.len(), BATCHES.len());
+        let sizes = chosen.len() / scenes().count();
+        let runs = format!("{} scenes at {sizes} sizes in {} batch sizes", scenes().count(), BATCHES.len());
         report(entry, &runs, "as the snapshots");
     }
 }
@@ -121,12 +107,12 @@ impl Job for ScheduleAll<'_> {
 #[test]
 fn all_schedulers_give_the_bits_of_the_snapshot() {
     let (width, height) = SIZES[0];
-    let cases: Vec<Case> = SCENES.into_iter().map(|scene| case(scene, width, height)).collect();
+    let cases: Vec<Case> = scenes().map(|scene| case(scene, width, height)).collect();
     for (entry, threads) in devices() {
         for (case, outcome) in with_device(&entry, threads, ScheduleAll(&cases)).expect("opens") {
             insta::allow_duplicates! { insta::assert_json_snapshot!(case, outcome) };
         }
-        let runs = format!("{} scenes with {} schedules", SCENES.len(), Schedule::all(&cases[0]).len());
+        let runs = format!("{} scenes with {} schedules", scenes().count(), Schedule::all(&cases[0]).len());
         report(&entry, &runs, "as the snapshots");
     }
 }
@@ -145,7 +131,7 @@ impl Job for LookAtAll<'_> {
 
 #[test]
 fn both_rasterisers_give_the_same_pictures_on_every_device() {
-    for name in PICTURES {
+    for name in USUAL.into_iter().chain(BLURRED) {
         let scene = load(name);
         let mut expected: Vec<(Look, String)> = Vec::new(); // by the usual rasteriser of the first device, the CPU
         for (entry, _) in devices() {

@@ -349,7 +349,7 @@ shared_structs! {
         /// `KIND_…` bits.
         kind: u32,
         /// A word a side, then a word a corner: where their vertices are evaluated, 0 = where they are (see
-        /// [`crate::patch::owner`]). Only displacement looks at it.
+        /// [`crate::patch::owner`]). Only displacement looks at all of them, everything at sides that are halves of others.
         owners: [u32; 8],
     }
 

@@ -4,7 +4,7 @@
 //! The large patch is halved in any case, so that its side has a vertex where the small ones meet; and all that the small
 //! ones have on the side, vertices and lengths, is found on the large one's curve. So both have the same bits.
 
-use crate::abi::{KIND_HALF_SHIFT, KIND_HALVED, OWNER_SHIFT, Object, PARAM_ONE, Patch, Surface};
+use crate::abi::{KIND_HALF_SHIFT, OWNER_SHIFT, Object, PARAM_ONE, Patch, Surface};
 use crate::border::SIDES;
 use crate::kernel::dice::position_at;
 use crate::patch::Net;
@@ -23,13 +23,6 @@ impl Patch {
     #[must_use]
     pub const fn is_half(&self, side: usize) -> bool {
         self.kind >> KIND_HALF_SHIFT >> side & 1 != 0
-    }
-
-    /// Are there two patches on the other side of this side?
-    #[inline(always)]
-    #[must_use]
-    pub const fn is_halved(&self, side: usize) -> bool {
-        self.kind & KIND_HALVED & 1 << side != 0
     }
 
     /// Where a vertex is evaluated that lies on a side that is half of another's.
