@@ -149,7 +149,7 @@ fn cameras_and_objects_that_cannot_be_are_refused_with_their_line() {
         (scene(CAMERA, "patches = [[[0, 0, 0]]]"), "a patch of 1 points"),
         (scene(CAMERA, "gregory = [[[0, 0, 0]]]"), "has 20 points"),
         (scene(CAMERA, "patches = []"), "the list of patches is empty"),
-        (scene(CAMERA, "geometry = \"patches.obj\""), "not a .bpt file"),
+        (scene(CAMERA, "geometry = \"patches.ply\""), "neither an .obj nor a .bpt file"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\ncolour = \"red\""), "this is not a colour"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nshininess = 3"), "power of two"),
         (scene(CAMERA, "geometry = \"patches.bpt\"\nscale = nan"), "scale"),

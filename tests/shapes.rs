@@ -57,7 +57,9 @@ fn closed_cages_are_closed_meshes() {
 
 #[test]
 fn closed_cages_have_no_hole_from_inside() {
-    for file in cages() {
+    // Those of one piece.
+    let is_one = |file: &PathBuf| !file.ends_with("tetrahedra.obj") && !file.ends_with("solids.obj");
+    for file in cages().into_iter().filter(is_one) {
         let mut scene = Scene::load(&file).expect("a scene");
         let (low, high) = scene.bounds();
         scene.background = Vec3::new(1.0, 0.0, 1.0);
@@ -76,7 +78,6 @@ fn closed_cages_have_no_hole_from_inside() {
             for oracle in Oracle::ALL {
                 let image = picture(&scene, &options(oracle)).image;
                 let holes = image.rgb.as_chunks::<3>().0.iter().filter(|rgb| **rgb == [255, 0, 255]).count();
-                // Tetrahedra lie apart: only the one that the eye is in is closed around it.
                 assert_eq!(holes, 0, "{}, along {axis}, {}", file.display(), oracle.name());
             }
         }
@@ -162,7 +163,10 @@ fn polygons_are_drawn_as_they_are_if_they_are_to_be() {
     let mesh = mesh(&scene, &options(Oracle::Size));
     assert_eq!(mesh.open_edges(), 0);
     for position in &mesh.positions {
-        assert!(position.iter().any(|c| c.abs() == 1.0), "{position:?} lies on no face of the cube");
+        assert!(
+            position.iter().any(|c| (c.abs() - 1.0).abs() < 1.0e-6),
+            "{position:?} lies on no face of the cube"
+        );
     }
     let flat = picture(&scene, &options(Oracle::Flatness));
     assert!(flat.counts.micropolygons <= 6, "{:?}", flat.counts);

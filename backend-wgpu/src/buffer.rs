@@ -3,9 +3,14 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use micropoly_core::abi::{FLAG_WEBER, FLAG_WHOLE, Frame, Layout, Object, Patch, Shared};
+use micropoly_core::abi::{
+    FLAG_FLAT, FLAG_INSTANCES, FLAG_WEBER, FLAG_WHOLE, Frame, Layout, Object, Patch, Shared,
+};
 
 use crate::error::WgpuError;
+
+/// What of a frame only the kernels for any patch and profile know.
+const GENERAL: u32 = FLAG_WEBER | FLAG_WHOLE | FLAG_FLAT | FLAG_INSTANCES;
 
 /// Entries of one layout in the device's memory.
 #[derive(Debug)]
@@ -43,13 +48,11 @@ impl WgpuBuffer {
     /// Takes note of what is written.
     pub(crate) fn note<T: Shared>(&self, data: &[T]) {
         let is_general = if T::LAYOUT == Patch::LAYOUT {
-            bytemuck::cast_slice::<T, Patch>(data).iter().any(|patch| patch.faces > 0)
+            bytemuck::cast_slice::<T, Patch>(data).iter().any(|patch| patch.faces > 0 || patch.kind > 0)
         } else if T::LAYOUT == Object::LAYOUT {
             bytemuck::cast_slice::<T, Object>(data).iter().any(|object| object.reach > 0.0)
         } else if T::LAYOUT == Frame::LAYOUT {
-            bytemuck::cast_slice::<T, Frame>(data)
-                .iter()
-                .any(|frame| frame.flags & (FLAG_WEBER | FLAG_WHOLE) != 0)
+            bytemuck::cast_slice::<T, Frame>(data).iter().any(|frame| frame.flags & GENERAL != 0)
         } else {
             false
         };

@@ -98,7 +98,7 @@ shared_constants! {
     const THIRD: f32 = 1.0 / 3.0;
     /// Places on a piece of a line are multiples of this share of it, as a power of two: so they are the same whether it
     /// is measured in its own units or in those of a line twice as long.
-    const PLACE_BITS: u32 = 10;
+    const PLACE_BITS: u32 = 12;
     /// A patch whose sides are halves of others, or halved by others, is never halved more often than this: then places on
     /// pieces of its sides are multiples of two units.
     const JOINED_SPLITS: u32 = PARAM_BITS - PLACE_BITS - 1;

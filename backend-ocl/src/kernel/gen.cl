@@ -21,8 +21,8 @@
 #define PARALLEL 5.9604645e-8f
 #define INNER_MOST 4.4444445e-1f
 #define THIRD 3.3333334e-1f
-#define PLACE_BITS 10u
-#define JOINED_SPLITS 13u
+#define PLACE_BITS 12u
+#define JOINED_SPLITS 11u
 #define LINE_SHARE 1.0416667e-2f
 #define SHADE_TINY 1e-30f
 #define OWNER_SHIFT 6u

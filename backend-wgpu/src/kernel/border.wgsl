@@ -52,8 +52,9 @@ fn last_corner(side: u32) -> u32 {
 
 // Where step `index` of `steps` ends in a piece 2^bits long: the same places if counted from the other end.
 fn place(index: u32, steps: u32, bits: u32) -> u32 {
+    let fine = select(PLACE_BITS, bits, bits < PLACE_BITS);
     let is_low = 2u * index <= steps;
-    let from_end = (select(steps - index, index, is_low) << bits) / steps;
+    let from_end = ((select(steps - index, index, is_low) << fine) / steps) << (bits - fine);
     return select((1u << bits) - from_end, from_end, is_low);
 }
 
@@ -87,9 +88,14 @@ fn strayed_corners(surface: Surface) -> u32 {
 
 // u and v of the vertex at a corner.
 fn corner_at(surface: Surface, corner: u32) -> vec2<u32> {
+    return astray(chosen(corners_of(surface), corner), seeming_corner(surface, corner));
+}
+
+// u and v of a corner, if it has not strayed.
+fn seeming_corner(surface: Surface, corner: u32) -> vec2<u32> {
     let u = surface.u + select(0u, u_size(surface), (corner & 1u) != 0u);
     let v = surface.v + select(0u, v_size(surface), (corner & 2u) != 0u);
-    return astray(chosen(corners_of(surface), corner), vec2<u32>(u, v));
+    return vec2<u32>(u, v);
 }
 
 // Where a side begins along its line, and the log2 of its length.

@@ -66,7 +66,8 @@ fn pixel_range(reach: Reach, centre: f32, whole: vec2<u32>, margin: f32) -> vec2
 }
 
 fn bound(surface: Surface) -> Verdict {
-    return judge(surface, hull_of_bezier(in_eye_space(surface.patch_id), surface));
+    let whole = in_eye_space(surface.patch_id, object_of(surface.patch_id));
+    return judge(surface, hull_of_bezier(whole, surface));
 }
 
 fn judge(surface: Surface, hull: Hull) -> Verdict {
@@ -84,7 +85,7 @@ fn judge(surface: Surface, hull: Hull) -> Verdict {
     var extents = vec2<f32>(lengths.u, lengths.v);
     var pixels = whole_window();
     if crosses && !is_whole() {
-        if nearest_smooth(hull) < measured_from() {
+        if nearest_smooth(hull) < measured_from() && !is_flat() {
             extents = extents_if_cut(hull.part);
         }
         if !strays.exist {
@@ -141,17 +142,23 @@ fn divided_verdict(surface: Surface, lengths: Lengths, found: Verdict) -> Verdic
     return with_sides(found, sides, rates_for(divided(surface, plain), lengths));
 }
 
-fn by_extents(surface: Surface, extents: vec2<f32>) -> u32 {
+// What becomes of a surface in view that is so long, if nothing forces it to be split.
+fn by_size(surface: Surface, extents: vec2<f32>) -> u32 {
     if max(extents.x, extents.y) <= frame.bound {
         return DRAW;
     }
     return refine(surface, extents);
 }
 
+// Is there a level for each of so many splits?
+fn may_split(surface: Surface, times: u32) -> bool {
+    return level(surface) + times < frame.levels;
+}
+
 fn refine(surface: Surface, extents: vec2<f32>) -> u32 {
-    let open_u = u_level(surface) < MAX_SPLITS;
-    let open_v = v_level(surface) < MAX_SPLITS;
-    if level(surface) + 1u >= frame.levels {
+    let open_u = u_level(surface) < most_splits();
+    let open_v = v_level(surface) < most_splits();
+    if !may_split(surface, 1u) {
         return DRAW_LIMITED;
     }
     if extents.x > extents.y {

@@ -1,11 +1,16 @@
-// Mirrors core/src/kernel/bound.rs: what of it concerns Bezier patches only that are not displaced, in our own profile,
-// seen by a camera. Most scenes need no more, and a software device would run the rest for nothing.
+// Mirrors core/src/kernel/bound.rs: what of it concerns Bezier patches only that have their sides for themselves and are
+// not displaced, no two objects the same ones, in our own profile, by size, seen by a camera. Most scenes need no more, and
+// a software device would run the rest for nothing.
 
 fn bound_any(surface: Surface) -> Verdict {
     return bound(surface);
 }
 
 fn is_whole() -> bool {
+    return false;
+}
+
+fn is_flat() -> bool {
     return false;
 }
 
@@ -40,4 +45,16 @@ fn stray_at(point: vec3<f32>) -> Strays {
 
 fn wobble_of(points: Net, spread: f32, nearest: f32) -> f32 {
     return 0.0;
+}
+
+fn by_extents(surface: Surface, extents: vec2<f32>) -> u32 {
+    return by_size(surface, extents);
+}
+
+fn most_splits() -> u32 {
+    return MAX_SPLITS;
+}
+
+fn stays_live(surface: Surface, side: u32) -> bool {
+    return false;
 }

@@ -46,11 +46,6 @@ struct Diced {
     normal: vec3<f32>,
 }
 
-// As many nets as the patch needs.
-fn net_count() -> u32 {
-    return select(1u, NETS, IS_DISPLACED);
-}
-
 // Control points 4 i ..= 4 i + 3 of coordinate k of net n.
 fn net_row(n: u32, k: u32, i: u32) -> vec4<f32> {
     let at = 48u * n + 16u * k + 4u * i;
@@ -87,10 +82,9 @@ fn curve_across(n: u32, k: u32, weights: vec3<f32>) -> vec4<f32> {
 }
 
 // What vertices share: nets, then the rows' curves and the columns' weights; and the border.
-fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
-    prepare_nets(draw.patch_id, lane);
-    // Of a displaced patch others own the border.
-    IS_REGULAR = all(border_words(surface_of(draw)) == vec4<u32>(0u)) && !IS_DISPLACED;
+fn prepare(draw: Draw, placed: Instance, rates: vec2<u32>, lane: u32) {
+    prepare_nets(placed, lane);
+    IS_REGULAR = all(border_words(surface_of(draw)) == vec4<u32>(0u)) && !is_owned_by_others();
     let is_moved = lane < border_count(rates) && !IS_REGULAR;
     if lane <= rates.x {
         prepare_column(draw, lane);
@@ -106,7 +100,7 @@ fn prepare(draw: Draw, rates: vec2<u32>, lane: u32) {
         prepare_row(lane);
     }
     if is_moved {
-        border[lane] = evaluate_moved(owner_of(draw.patch_id, border_uv[lane]));
+        border[lane] = evaluate_on_border(placed.record, border_uv[lane]);
     }
     let n = GROUP - 1u - lane;
     if n < net_count() {

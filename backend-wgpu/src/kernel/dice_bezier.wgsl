@@ -1,21 +1,37 @@
-// No mirror in core: what stands in the place of `dice_gregory.wgsl`, `owner.wgsl` and `displace.wgsl` where all
-// patches are Bezier patches and none is displaced.
+// No mirror in core: what stands in the place of `instance.wgsl`, `dice_any.wgsl` and all that it needs where all patches are
+// Bezier patches that have their sides for themselves, none is displaced, and no two objects have the same ones.
 
 const NETS: u32 = 1u;
-const IS_DISPLACED: bool = false;
 
-fn prepare_nets(patch_id: u32, lane: u32) {
+struct Instance {
+    record: u32,
+    object: u32,
+}
+
+fn instance(patch_id: u32) -> Instance {
+    return Instance(patch_id, object_of(patch_id));
+}
+
+fn net_count() -> u32 {
+    return NETS;
+}
+
+fn is_owned_by_others() -> bool {
+    return false;
+}
+
+fn prepare_nets(placed: Instance, lane: u32) {
     if lane < 48u {
-        nets[lane] = transformed(patch_id, lane / 16u, lane % 16u);
+        nets[lane] = transformed(placed.record, placed.object, lane / 16u, lane % 16u);
     }
 }
 
-fn owner_of(patch_id: u32, at: vec2<u32>) -> Owner {
-    return Owner(0u, at.x, at.y);
+fn evaluate_on_border(record: u32, at: vec2<u32>) -> Evaluated {
+    return evaluate_moved(Owner(0u, at.x, at.y));
 }
 
-fn dice_any(draw: Draw, object: u32, row: u32, column: u32) -> Diced {
+fn dice_any(draw: Draw, placed: Instance, row: u32, column: u32) -> Diced {
     let evaluated = evaluate_bezier(draw, row, column);
-    let own = owner_of(draw.patch_id, vertex_of(draw, row, column));
-    return Diced(evaluated.point, normal_of(evaluated, own));
+    let at = vertex_of(draw, row, column);
+    return Diced(evaluated.point, normal_of(evaluated, Owner(0u, at.x, at.y)));
 }

@@ -1,43 +1,5 @@
 // Mirrors core/src/kernel/dice_gregory.rs: as `dice.wgsl`, with other inner control points at each vertex.
 
-// The record of the face points of each net's patch; 0 if it is a Bezier patch.
-var<workgroup> records: array<u32, NETS>;
-// Face points: coordinate k of point l of the patch of net n at 24 n + 8 k + l.
-var<workgroup> faces: array<f32, 24u * NETS>;
-
-// Control points and face points of net n, which is that of a patch.
-fn prepare_net(n: u32, patch_id: u32, lane: u32) {
-    let record = faces_of(patch_id);
-    if lane == 0u {
-        records[n] = record;
-    }
-    if lane < 48u {
-        nets[48u * n + lane] = source(patch_id, lane / 16u, lane % 16u);
-    }
-    if lane < 24u {
-        faces[24u * n + lane] = source(record, lane / 8u, lane % 8u);
-    }
-}
-
-// Position and unit normal of a vertex of any patch.
-fn dice_any(draw: Draw, object: u32, row: u32, column: u32) -> Diced {
-    let owner = owner_of(draw.patch_id, vertex_of(draw, row, column));
-    let evaluated = evaluate_any(draw, row, column, owner);
-    let diced = Diced(evaluated.point, normal_of(evaluated, owner));
-    if IS_DISPLACED {
-        return displaced(object, diced);
-    }
-    return diced;
-}
-
-// On a Bezier patch `prepare` has done most of it, on the border all.
-fn evaluate_any(draw: Draw, row: u32, column: u32, owner: Owner) -> Evaluated {
-    if records[owner.n] == 0u {
-        return evaluate_bezier(draw, row, column);
-    }
-    return evaluate_gregory(owner);
-}
-
 // A point of a patch and its derivatives; the derivatives are the true ones, those of the blends included.
 fn evaluate_gregory(at: Owner) -> Evaluated {
     let u = param(at.u);
@@ -58,8 +20,8 @@ fn evaluate_gregory(at: Owner) -> Evaluated {
 // Inner point `m`, one coordinate: its point for the border of constant v, and what the other differs by.
 fn face_pair(n: u32, k: u32, m: u32) -> vec2<f32> {
     let at = 24u * n + 8u * k + m;
-    let of_v = faces[at + 4u];
-    return vec2<f32>(of_v, sub(faces[at], of_v));
+    let of_v = besides[at + 4u];
+    return vec2<f32>(of_v, sub(besides[at], of_v));
 }
 
 // Row 1 or 2 of the net that the patch has at these shares of its inner points, one coordinate.

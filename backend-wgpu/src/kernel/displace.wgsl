@@ -1,30 +1,10 @@
 // Mirrors core/src/kernel/displace.rs: vertices move along their normals, by bumps that are a function of where they
 // are in object space.
 
-// Is the patch's object displaced? Then all nets are in its space, not in eye space.
-var<private> IS_DISPLACED: bool;
-
 // A number that varies in space, and its derivatives along x, y and z.
 struct Bump {
     value: f32,
     slope: vec3<f32>,
-}
-
-// The net of a patch and, if it is displaced, those of all owners of its border.
-fn prepare_nets(patch_id: u32, lane: u32) {
-    IS_DISPLACED = objects[object_of(patch_id)].reach > 0.0;
-    for (var n = 0u; n < net_count(); n++) {
-        prepare_net(n, patch_of_net(patch_id, n), lane);
-    }
-}
-
-// One coordinate (0, 1, 2) of control point `l`, as nets have it.
-fn source(patch_id: u32, k: u32, l: u32) -> f32 {
-    let point = control_point(patch_id, l);
-    if IS_DISPLACED {
-        return point[k];
-    }
-    return coordinate_to_eye(object_of(patch_id), k, point);
 }
 
 // How far a point of an object is displaced.

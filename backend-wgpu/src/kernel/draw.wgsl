@@ -34,24 +34,24 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if lane == 63u {
         clear_measures();
     }
-    prepare(draw, rates, lane);
+    let placed = instance(draw.patch_id);
+    prepare(draw, placed, rates, lane);
     workgroupBarrier();
-    let object = object_of(draw.patch_id);
     let stride = rates.x + 1u;
     for (var task = lane; task < stride * (rates.y + 1u); task += GROUP) {
-        dice(draw, object, task / stride, task % stride, base);
+        dice(draw, placed, task / stride, task % stride, base);
     }
     workgroupBarrier();
     seek_faces(rates, lane);
     workgroupBarrier();
     if lane == 0u {
-        put_head(draw, object, base);
+        put_head(draw, placed.object, base);
     }
 }
 
 // One vertex of the grid at word `base`: snapped position, position, colour.
-fn dice(draw: Draw, object: u32, row: u32, column: u32, base: u32) {
-    let diced = dice_any(draw, object, row, column);
+fn dice(draw: Draw, placed: Instance, row: u32, column: u32, base: u32) {
+    let diced = dice_any(draw, placed, row, column);
     let vertex = project(diced.point);
     let at = vertex_number(row, column);
     grid_x[at] = vertex.x;
@@ -60,7 +60,7 @@ fn dice(draw: Draw, object: u32, row: u32, column: u32, base: u32) {
     measure(vertex);
     put_screen(base, at, vertex);
     put_space(base, at, 0u, diced.point);
-    put_space(base, at, 3u, shade(object, diced.point, diced.normal));
+    put_space(base, at, 3u, shade(placed.object, diced.point, diced.normal));
 }
 
 fn put_screen(base: u32, at: u32, vertex: Vertex) {

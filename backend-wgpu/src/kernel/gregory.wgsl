@@ -17,8 +17,7 @@ fn inner(m: u32) -> u32 {
     return 5u + m % 2u + 4u * (m / 2u);
 }
 
-fn faces_in_eye_space(record: u32) -> Faces {
-    let object = object_of(record);
+fn faces_in_eye_space(record: u32, object: u32) -> Faces {
     var faces: Faces;
     for (var l = 0u; l < 8u; l++) {
         faces.points[l] = point_to_eye(object, control_point(record, l));
@@ -45,12 +44,12 @@ fn inner_point(of_u: vec3<f32>, of_v: vec3<f32>, share: f32) -> vec3<f32> {
     return add3(of_v, scale3(difference(of_u, of_v), share));
 }
 
-// Distances of the low and high end of a range, start and size, from the end 0 or 1 of its parameter.
+// Distances of the low and high end of a range from the end 0 or 1 of its parameter.
 fn ends(range: vec2<u32>, end: u32) -> vec2<f32> {
     if end == 0u {
-        return vec2<f32>(param(range.x), param(range.x + range.y));
+        return vec2<f32>(param(range.x), param(range.y));
     }
-    return vec2<f32>(param(PARAM_ONE - range.x), param(PARAM_ONE - range.x - range.y));
+    return vec2<f32>(param(PARAM_ONE - range.x), param(PARAM_ONE - range.y));
 }
 
 // The smaller of the two first.
@@ -80,10 +79,10 @@ struct Centred {
     spread: f32,
 }
 
-// The middles of all shares on a surface, in the net of the whole patch.
-fn centre_inner(all: Faces, whole: Net, surface: Surface, exchanged: bool) -> Centred {
-    let along_u = vec2<u32>(surface.u, u_size(surface));
-    let along_v = vec2<u32>(surface.v, v_size(surface));
+// The middles of all shares in a range, in the net of the whole patch.
+fn centre_inner(all: Faces, whole: Net, range: vec4<u32>, exchanged: bool) -> Centred {
+    let along_u = range.xy;
+    let along_v = range.zw;
     let first = select(along_u, along_v, exchanged);
     let second = select(along_v, along_u, exchanged);
     var faces = all;
@@ -111,13 +110,13 @@ fn between(low: f32, high: f32, t: f32) -> f32 {
 }
 
 // Moves the control points of a surface to where the shares at its corners, and between them, take them.
-fn follow(all: Faces, from_part: Net, surface: Surface, exchanged: bool) -> Net {
-    let along_u = vec2<u32>(surface.u, u_size(surface));
-    let along_v = vec2<u32>(surface.v, v_size(surface));
+fn follow(all: Faces, from_part: Net, range: vec4<u32>, exchanged: bool) -> Net {
+    let along_u = range.xy;
+    let along_v = range.zw;
     let first = select(along_u, along_v, exchanged);
     let second = select(along_v, along_u, exchanged);
-    var weights_u = blossom(surface.u, surface.u + u_size(surface));
-    var weights_v = blossom(surface.v, surface.v + v_size(surface));
+    var weights_u = blossom(range.x, range.y);
+    var weights_v = blossom(range.z, range.w);
     var faces = all;
     var part = from_part;
     for (var m = 0u; m < 4u; m++) {

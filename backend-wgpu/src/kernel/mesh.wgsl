@@ -22,13 +22,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let draw = draws[index];
     let base = places[index];
-    let object = object_of(draw.patch_id);
+    let placed = instance(draw.patch_id);
     let rates = draw_rates(draw);
     let stride = rates.x + 1u;
-    prepare(draw, rates, lane);
+    prepare(draw, placed, rates, lane);
     workgroupBarrier();
     for (var at = lane; at < stride * (rates.y + 1u); at += GROUP) {
-        vertices[base.vertex + at] = vertex_at(draw, object, at, at / stride, at % stride);
+        vertices[base.vertex + at] = vertex_at(draw, placed, at, at / stride, at % stride);
     }
     workgroupBarrier();
     for (var quad = lane; quad < rates.x * rates.y; quad += GROUP) {
@@ -39,8 +39,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
 }
 
-fn vertex_at(draw: Draw, object: u32, at: u32, row: u32, column: u32) -> MeshVertex {
-    let diced = dice_any(draw, object, row, column);
+fn vertex_at(draw: Draw, placed: Instance, at: u32, row: u32, column: u32) -> MeshVertex {
+    let diced = dice_any(draw, placed, row, column);
     let point = diced.point;
     let normal = diced.normal;
     positions[at] = point;

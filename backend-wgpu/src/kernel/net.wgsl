@@ -15,13 +15,22 @@ fn object_of(patch_id: u32) -> u32 {
     return patches_more[patch_id - here].object;
 }
 
-// The record of the face points of a Gregory patch, or 0.
+// The record of the face points of a Gregory patch or of the weights of a rational one, or 0.
 fn faces_of(patch_id: u32) -> u32 {
     let here = arrayLength(&patches);
     if patch_id < here {
         return patches[patch_id].faces;
     }
     return patches_more[patch_id - here].faces;
+}
+
+// Bits of what a patch is besides.
+fn kind_of(patch_id: u32) -> u32 {
+    let here = arrayLength(&patches);
+    if patch_id < here {
+        return patches[patch_id].kind;
+    }
+    return patches_more[patch_id - here].kind;
 }
 
 // The owner of a side or corner: see core/src/patch/owner.rs.
@@ -61,12 +70,11 @@ fn point_to_eye(object: u32, point: vec3<f32>) -> vec3<f32> {
 }
 
 // One eye-space coordinate of control point `l`.
-fn transformed(patch_id: u32, k: u32, l: u32) -> f32 {
-    return coordinate_to_eye(object_of(patch_id), k, control_point(patch_id, l));
+fn transformed(patch_id: u32, object: u32, k: u32, l: u32) -> f32 {
+    return coordinate_to_eye(object, k, control_point(patch_id, l));
 }
 
-fn in_eye_space(patch_id: u32) -> Net {
-    let object = object_of(patch_id);
+fn in_eye_space(patch_id: u32, object: u32) -> Net {
     var net: Net;
     for (var l = 0u; l < 16u; l++) {
         let point = point_to_eye(object, control_point(patch_id, l));
@@ -107,8 +115,17 @@ fn extent(net: Net) -> f32 {
 }
 
 fn restricted(net: Net, surface: Surface) -> Net {
-    let along_u = blossom(surface.u, surface.u + u_size(surface));
-    let along_v = blossom(surface.v, surface.v + v_size(surface));
+    return net_between(net, range_of(surface));
+}
+
+// The low and the high end of u, then those of v.
+fn range_of(surface: Surface) -> vec4<u32> {
+    return vec4<u32>(surface.u, surface.u + u_size(surface), surface.v, surface.v + v_size(surface));
+}
+
+fn net_between(net: Net, range: vec4<u32>) -> Net {
+    let along_u = blossom(range.x, range.y);
+    let along_v = blossom(range.z, range.w);
     return Net(
         combine_v(combine_u(net.x, along_u), along_v),
         combine_v(combine_u(net.y, along_u), along_v),

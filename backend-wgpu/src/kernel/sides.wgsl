@@ -1,6 +1,7 @@
 // Mirrors core/src/kernel/sides.rs: how the four sides of a surface are divided, and how finely its grid is diced.
 
-// Lengths in pixels: of the longest lines of the surface along u and along v, and of its sides.
+// Lengths in pixels: of the longest lines of the surface along u and along v, and of its sides; or how far it is from
+// being flat.
 struct Lengths {
     u: f32,
     v: f32,
@@ -10,6 +11,25 @@ struct Lengths {
 // Of a surface whose control polygons along u and along v are so long, each in order.
 fn lengths_of_polygons(u: vec4<f32>, v: vec4<f32>) -> Lengths {
     return Lengths(longest(u), longest(v), vec4<f32>(u.xw, v.xw));
+}
+
+// A surface is no shorter than its sides.
+fn with_own_sides(lengths: Lengths, sides: vec4<f32>) -> Lengths {
+    return Lengths(
+        max(lengths.u, max(sides.x, sides.y)),
+        max(lengths.v, max(sides.z, sides.w)),
+        sides,
+    );
+}
+
+// Lengths of sides with another one of this side.
+fn with_side(sides: vec4<f32>, side: u32, length: f32) -> vec4<f32> {
+    return select(sides, vec4<f32>(length), vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(side));
+}
+
+fn side_length(sides: vec4<f32>, side: u32) -> f32 {
+    let pair = select(sides.xy, sides.zw, side > 1u);
+    return select(pair.x, pair.y, (side & 1u) != 0u);
 }
 
 fn longest(all: vec4<f32>) -> f32 {
@@ -30,19 +50,19 @@ fn steps_of(length: f32) -> u32 {
 // How the sides of a surface are divided, packed: as they were, unless they are live and short enough; or long, but
 // may not be halved any more.
 fn divide(surface: Surface, lengths: Lengths, code: u32) -> vec4<u32> {
-    let is_last = code == DRAW_LIMITED;
-    let known = sides_of(surface);
-    let bits = PARAM_BITS - vec2<u32>(u_level(surface), v_level(surface));
     return vec4<u32>(
-        divide_side(known.x, lengths.sides.x, bits.x, is_last),
-        divide_side(known.y, lengths.sides.y, bits.x, is_last),
-        divide_side(known.z, lengths.sides.z, bits.y, is_last),
-        divide_side(known.w, lengths.sides.w, bits.y, is_last),
+        divide_side(surface, 0u, lengths.sides.x, code),
+        divide_side(surface, 1u, lengths.sides.y, code),
+        divide_side(surface, 2u, lengths.sides.z, code),
+        divide_side(surface, 3u, lengths.sides.w, code),
     );
 }
 
-fn divide_side(known: u32, length: f32, bits: u32, is_last: bool) -> u32 {
-    let is_short = (is_last || length <= frame.bound) && (frame.flags & FLAG_NAIVE) == 0u;
+fn divide_side(surface: Surface, side: u32, length: f32, code: u32) -> u32 {
+    let known = chosen(sides_of(surface), side);
+    let bits = extent_of(surface, side).bits;
+    let is_last = code == DRAW_LIMITED || (length <= frame.bound && !stays_live(surface, side));
+    let is_short = is_last && (frame.flags & FLAG_NAIVE) == 0u;
     let is_live = unpacked(known).steps == 0u;
     return select(known, packed(Side(steps_of(length), bits)), is_live && is_short);
 }
