@@ -24,8 +24,8 @@ static void faces_in_eye_space(uint zero, __global const Patch *record, __global
 
 static float faces_extent(const Faces *faces) {
     float largest = 0.0f;
-    for (uint l = 0u; l < 8u; l++) {
-        largest = max(largest, max(max(abs(faces->x[l]), abs(faces->y[l])), abs(faces->z[l])));
+    for (uint face = 0u; face < 8u; face++) {
+        largest = max(largest, max(max(abs(faces->x[face]), abs(faces->y[face])), abs(faces->z[face])));
     }
     return largest;
 }

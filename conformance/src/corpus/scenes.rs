@@ -226,8 +226,8 @@ fn join(random: &mut fastrand::Rng, patches: &mut [Patch]) {
     }
 }
 
-/// Face points around the inner points of a patch: far from them, near them, or all there. Now and then all of one inner
-/// point are so far away that what rounding can do is many pixels.
+/// Face points around the inner points of a patch: far from them, near them, or all there. Now and then one or both of an
+/// inner point's are so far away that what rounding can do is many pixels.
 pub(super) fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
     let mut record = Patch { object: patch.object, ..Patch::default() };
     let rough = [0.0, 0.05, 0.6][random.usize(0..3)];
@@ -239,8 +239,8 @@ pub(super) fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
         record.z[l] = patch.z[at] + jitter();
     }
     if random.u8(0..6) == 0 {
-        let (m, axis) = (random.usize(0..4), random.usize(0..3));
-        for l in [m, 4 + m] {
+        let (m, axis, both) = (random.usize(0..4), random.usize(0..3), random.bool());
+        for l in if both { m..m + 5 } else { m..m + 1 }.step_by(4) {
             [&mut record.x, &mut record.y, &mut record.z][axis][l] = 1.0e5;
         }
     }
