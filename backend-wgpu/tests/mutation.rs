@@ -19,6 +19,12 @@ const ALLOWED: &[Allowed] = &[
         why: "a length is less than a millionth of a pixel either way",
     },
     Allowed {
+        file: "flat.wgsl",
+        line: "return sqrt(add(square, LENGTH_TINY));",
+        operator: "add(",
+        why: "a length is less than a millionth of a pixel either way",
+    },
+    Allowed {
         file: "weber.wgsl",
         line: "return sqrt(add(add(mul(dx, dx), mul(dy, dy)), LENGTH_TINY));",
         operator: "add(",
@@ -79,12 +85,7 @@ const ALLOWED: &[Allowed] = &[
         operator: " && ",
         why: "all write the same, and fewer groups than a dimension has are as many as were asked for",
     },
-    Allowed {
-        file: "dice_gregory.wgsl",
-        line: "if lane == 0u {",
-        operator: " == ",
-        why: "all write the same",
-    },
+    Allowed { file: "dice_any.wgsl", line: "if lane == 0u {", operator: " == ", why: "all write the same" },
     Allowed {
         file: "draw.wgsl",
         line: "let narrow = atomicLoad(&high_x) - atomicLoad(&low_x) <= NARROW",
