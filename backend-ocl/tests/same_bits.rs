@@ -16,7 +16,8 @@ use micropoly_core::stage::{Extent, Items, Stage};
 
 /// Everything that an OpenCL compiler may be told to break.
 const HOSTILE: &str = "-cl-fast-relaxed-math -cl-mad-enable -cl-denorms-are-zero";
-const SCENES: [&str; 6] = ["teapot", "eyesplit", "spheres", "still-life", "gregory", "displaced"];
+const SCENES: [&str; 8] =
+    ["teapot", "eyesplit", "spheres", "still-life", "gregory", "displaced", "copies", "shapes.rib"];
 const SMALL: FrameOptions = FrameOptions {
     width: 320,
     height: 180,
@@ -39,7 +40,8 @@ const SMALL: FrameOptions = FrameOptions {
 const LAST: FrameOptions = FrameOptions { rasteriser: Rasteriser::SortLast, ..SMALL };
 
 fn case(scene: &str, options: &FrameOptions) -> Case {
-    let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+    let file = if scene.contains('.') { scene.to_owned() } else { format!("{scene}.toml") };
+    let path = format!("{}/../scenes/{file}", env!("CARGO_MANIFEST_DIR"));
     let device = Scene::load(path).expect("a scene").for_device(options).expect("a drawable scene");
     Case {
         name: format!("{scene} {options:?}"),
@@ -90,7 +92,7 @@ fn other_dice_rates_have_the_bits_of_the_cpu() {
 
 #[test]
 fn flatness_has_the_bits_of_the_cpu() {
-    for scene in ["teapot", "gregory", "displaced", "eyesplit"] {
+    for scene in ["teapot", "gregory", "eyesplit", "copies", "shapes.rib"] {
         for tolerance in [0.25, 2.0] {
             let options = FrameOptions { oracle: Oracle::Flatness, tolerance, ..SMALL };
             compare(&case(scene, &options), &[4096], &OpenOptions::default());
@@ -119,7 +121,7 @@ fn small_micropolygons_have_the_bits_of_the_cpu() {
 /// Behind the eye too, surfaces are bounded, and corners that strayed may be cut off.
 #[test]
 fn a_mesh_that_is_whole_has_the_bits_of_the_cpu() {
-    for scene in ["teapot", "eyesplit", "gregory"] {
+    for scene in ["teapot", "eyesplit", "gregory", "copies", "shapes.rib"] {
         let options = FrameOptions { whole: true, ..SMALL };
         compare(&case(scene, &options), &[4096], &OpenOptions::default());
     }

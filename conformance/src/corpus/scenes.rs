@@ -226,7 +226,8 @@ fn join(random: &mut fastrand::Rng, patches: &mut [Patch]) {
     }
 }
 
-/// Face points around the inner points of a patch: far from them, near them, or all there.
+/// Face points around the inner points of a patch: far from them, near them, or all there. Now and then one or both of an
+/// inner point's are so far away that what rounding can do is many pixels.
 pub(super) fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
     let mut record = Patch { object: patch.object, ..Patch::default() };
     let rough = [0.0, 0.05, 0.6][random.usize(0..3)];
@@ -236,6 +237,12 @@ pub(super) fn faces(random: &mut fastrand::Rng, patch: &Patch) -> Patch {
         record.x[l] = patch.x[at] + jitter();
         record.y[l] = patch.y[at] + jitter();
         record.z[l] = patch.z[at] + jitter();
+    }
+    if random.u8(0..6) == 0 {
+        let (m, axis, both) = (random.usize(0..4), random.usize(0..3), random.bool());
+        for l in if both { m..m + 5 } else { m..m + 1 }.step_by(4) {
+            [&mut record.x, &mut record.y, &mut record.z][axis][l] = 1.0e5;
+        }
     }
     record
 }
