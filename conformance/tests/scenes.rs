@@ -29,7 +29,7 @@ const SCENES: [&str; 9] = [
 const FLAT: &str = "shapes.rib, flat";
 /// Scenes that are also rendered as pictures are: with several samples a pixel, by both rasterisers, in parts, with all that
 /// blurs them and can be seen through in them.
-const PICTURES: [&str; 11] = [
+const PICTURES: [&str; 9] = [
     "teapot.toml",
     "eyesplit.toml",
     "spheres.toml",
@@ -39,8 +39,6 @@ const PICTURES: [&str; 11] = [
     "glass.toml",
     "spinning.toml",
     "focus.toml",
-    "copies.toml",
-    "shapes.rib",
 ];
 const SIZES: [(u32, u32); 3] = [(160, 90), (320, 180), (640, 360)];
 /// One more, where it is not a matter of minutes: not on devices that only pretend to be a GPU.
