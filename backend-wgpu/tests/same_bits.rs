@@ -1,13 +1,13 @@
 //! Every scene gives exactly the CPU's bits. Needs a Vulkan driver; Mesa's software one will do.
 
-use micropoly::{Borders, FrameOptions, Profile, Scene};
+use micropoly::{Borders, FrameOptions, Oracle, Profile, Scene};
 use micropoly_backend_cpu::CpuDevice;
 use micropoly_backend_wgpu::{WgpuDevice, WgpuError, devices, wgpu};
 use micropoly_conformance::stages::{Input, run_stage};
 use micropoly_conformance::{Case, Outcome, Schedule, run, run_scheduled};
 use micropoly_core::abi::{
-    Colour, Control, DRAW, Draw, FLAG_LAYERS, FLAG_SMOOTH, FLAG_SORT_LAST, Frame, Group, MeshPlace,
-    MeshTotals, MeshVertex, Object, Patch, Question, Sample, Shared, Surface, Verdict,
+    Colour, Control, DRAW, Draw, FLAG_FLAT, FLAG_LAYERS, FLAG_SMOOTH, FLAG_SORT_LAST, FLAG_WEBER, Frame,
+    Group, MeshPlace, MeshTotals, MeshVertex, Object, Patch, Question, Sample, Shared, Surface, Verdict,
 };
 use micropoly_core::adjacency::{find_owners, room_needed};
 use micropoly_core::backend::Device;
@@ -25,7 +25,8 @@ fn open() -> WgpuDevice {
 }
 
 fn case(scene: &str, options: FrameOptions) -> Case {
-    let path = format!("{}/../scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
+    let file = if scene.contains('.') { scene.to_owned() } else { format!("{scene}.toml") };
+    let path = format!("{}/../scenes/{file}", env!("CARGO_MANIFEST_DIR"));
     let device = Scene::load(path).expect("a scene").for_device(&options).expect("a drawable scene");
     Case {
         name: format!("{scene}, {options:?}"),
@@ -104,6 +105,69 @@ fn displaced_patches_have_the_same_bits() {
     assert_same(&case("displaced", small()), &[500, 4096]);
     assert_same(&case("displaced", FrameOptions { borders: Borders::Naive, rate: 7, ..small() }), &[4096]);
     assert_same(&displaced("gregory", small()), &[4096]);
+}
+
+/// Objects that have the same patches, and rational ones.
+#[test]
+fn copies_and_shapes_have_the_same_bits() {
+    for scene in ["copies", "shapes.rib"] {
+        assert_same(&case(scene, small()), &[4096]);
+        assert_same(&case(scene, FrameOptions { whole: true, ..small() }), &[4096]);
+    }
+}
+
+/// Kernels of their own, on a device that is asked for small surfaces before and after.
+#[test]
+fn flat_surfaces_have_the_same_bits() {
+    let flat = |tolerance| FrameOptions { oracle: Oracle::Flatness, tolerance, ..small() };
+    let mut device = open();
+    for scene in ["teapot", "gregory", "displaced", "eyesplit", "copies", "shapes.rib"] {
+        for options in [flat(0.25), small(), flat(2.0)] {
+            let case = case(scene, options);
+            assert_eq!(run(&mut device, &case, 4096).expect("renders"), on_cpu(&case), "{}", case.name);
+        }
+    }
+}
+
+/// The same buffer has a frame with flat surfaces, then one by Weber's rules, which know none, then one with small ones.
+#[test]
+fn what_a_frame_asks_for_is_what_was_written_last() {
+    let case = case("gregory", small());
+    let mut frames = [case.frame; 4];
+    for (frame, flags) in frames.iter_mut().zip([0, FLAG_FLAT, FLAG_FLAT | FLAG_WEBER, 0]) {
+        frame.flags = flags;
+    }
+    let expected = verdicts(&mut CpuDevice::new(1).expect("threads"), &case, &frames);
+    assert!(expected[0] != expected[1] && expected[1] != expected[2], "verdicts differ");
+    assert_eq!(verdicts(&mut open(), &case, &frames), expected);
+}
+
+/// The verdicts on all patches, with one frame after the other in the same buffer.
+fn verdicts<D: Device>(device: &mut D, case: &Case, frames: &[Frame]) -> Vec<Vec<Verdict>> {
+    let count = case.patch_count as u32;
+    let surfaces: Vec<Surface> = (0..count).map(Surface::root).collect();
+    let mut found = vec![Verdict::default(); surfaces.len()];
+    let frame = filled(device, "frame", &frames[..1]);
+    let objects = filled(device, "objects", &case.objects);
+    let patches = filled(device, "patches", &case.patches);
+    let control = filled(device, "control", &[Control { taken: count, ..Control::default() }]);
+    let (stack, batch) = (filled(device, "stack", &surfaces), filled(device, "batch", &surfaces));
+    let verdicts = filled(device, "verdicts", &found);
+    let mut all = Vec::new();
+    for one in frames {
+        device.write(&frame, &[*one]).expect("writes");
+        let buffers = [&frame, &objects, &patches, &control, &stack, &batch, &verdicts];
+        device.dispatch(Stage::Bound, Items::Taken, &buffers).expect("runs");
+        device.read(&verdicts, 0, &mut found).expect("reads");
+        all.push(found.clone());
+    }
+    all
+}
+
+fn filled<D: Device, T: Shared>(device: &mut D, name: &'static str, data: &[T]) -> D::Buffer {
+    let buffer = device.allocate(name, T::LAYOUT, data.len() as u64).expect("allocates");
+    device.write(&buffer, data).expect("writes");
+    buffer
 }
 
 /// One group and many, stacks as small as they can be and as large as they are without a capacity.
