@@ -95,6 +95,16 @@ files! {
     ARRANGE: "arrange",
 }
 
+/// The files of a kernel that bounds any patch: what it needs besides, what the frame asks for, and what goes on from there.
+macro_rules! for_any_patch {
+    ($($besides:ident)?; $asked:ident; $($then:ident),*) => {
+        &[
+            GEN, ITEMS, $($besides,)? NUM, SURFACE, BORDER, BEZIER, NET, EYE, PROJECT, INSTANCE, OWNER, HALF, RATIONAL,
+            GREGORY, WEBER, SIDES, FLAT, $asked, BOUND_ANY, BOUND, $($then),*
+        ]
+    };
+}
+
 /// The kernels: one a stage, those into which the fused stages are cut, and those that count groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Which {
@@ -270,52 +280,8 @@ impl Which {
                 BOUND,
                 BOUND_BATCH,
             ],
-            Self::BoundAny => &[
-                GEN,
-                ITEMS,
-                NUM,
-                SURFACE,
-                BORDER,
-                BEZIER,
-                NET,
-                EYE,
-                PROJECT,
-                INSTANCE,
-                OWNER,
-                HALF,
-                RATIONAL,
-                GREGORY,
-                WEBER,
-                SIDES,
-                FLAT,
-                BOUND_SIZED,
-                BOUND_ANY,
-                BOUND,
-                BOUND_BATCH,
-            ],
-            Self::BoundFlat => &[
-                GEN,
-                ITEMS,
-                NUM,
-                SURFACE,
-                BORDER,
-                BEZIER,
-                NET,
-                EYE,
-                PROJECT,
-                INSTANCE,
-                OWNER,
-                HALF,
-                RATIONAL,
-                GREGORY,
-                WEBER,
-                SIDES,
-                FLAT,
-                BOUND_FLAT,
-                BOUND_ANY,
-                BOUND,
-                BOUND_BATCH,
-            ],
+            Self::BoundAny => for_any_patch!(; BOUND_SIZED; BOUND_BATCH),
+            Self::BoundFlat => for_any_patch!(; BOUND_FLAT; BOUND_BATCH),
             Self::Stage(Stage::Scan) => &[GEN, COUNTS, SURFACE, BORDER, SCAN, SCAN_BATCH],
             Self::Stage(Stage::Split) => &[GEN, ITEMS, SURFACE, BORDER, SPLIT, SPLIT_BATCH],
             Self::Stage(Stage::Local) => &[
@@ -337,38 +303,8 @@ impl Which {
                 SPLIT,
                 LOCAL,
             ],
-            Self::LocalAny => &[
-                GEN,
-                ITEMS,
-                COUNTS,
-                NUM,
-                SURFACE,
-                BORDER,
-                BEZIER,
-                NET,
-                EYE,
-                PROJECT,
-                INSTANCE,
-                OWNER,
-                HALF,
-                RATIONAL,
-                GREGORY,
-                WEBER,
-                SIDES,
-                FLAT,
-                BOUND_SIZED,
-                BOUND_ANY,
-                BOUND,
-                TAKE,
-                SCAN,
-                SPLIT,
-                LOCAL,
-            ],
-            Self::LocalFlat => &[
-                GEN, ITEMS, COUNTS, NUM, SURFACE, BORDER, BEZIER, NET, EYE, PROJECT, INSTANCE, OWNER, HALF,
-                RATIONAL, GREGORY, WEBER, SIDES, FLAT, BOUND_FLAT, BOUND_ANY, BOUND, TAKE, SCAN, SPLIT,
-                LOCAL,
-            ],
+            Self::LocalAny => for_any_patch!(COUNTS; BOUND_SIZED; TAKE, SCAN, SPLIT, LOCAL),
+            Self::LocalFlat => for_any_patch!(COUNTS; BOUND_FLAT; TAKE, SCAN, SPLIT, LOCAL),
             Self::Stage(Stage::Balance) => &[GEN, COUNTS, BALANCE],
             Self::Stage(Stage::Deal) => &[GEN, ITEMS, SURFACE, DEAL],
             Self::Stage(Stage::Blend) => &[GEN, ITEMS, NUM, BLEND],
