@@ -122,6 +122,7 @@ fn remedy(error: &PlanError) -> String {
             "use --memory {needed} or more (a later level may need more still), or --scheduler adaptive, which needs \
              no more than a fixed amount"
         ),
+        PlanError::Tessellation { .. } => "change one of them".to_owned(),
         PlanError::BreadthMesh => "choose adaptive, bounded, local or stack".to_owned(),
         PlanError::TooLarge { buffer: "vertices" | "indices", .. } => {
             "choose a larger --micropolygon-size, another device (see `micropoly devices` for limits) or --backend cpu"

@@ -50,6 +50,7 @@ pub mod scene_file;
 mod shape;
 mod shot;
 pub mod stats;
+pub mod tess;
 mod timed;
 
 #[cfg(feature = "wgpu")]

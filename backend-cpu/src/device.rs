@@ -12,6 +12,7 @@ use micropoly_core::stage::{Extent, Items, Stage};
 use crate::buffer::CpuBuffer;
 use crate::draw::{Lists, Steps};
 use crate::sort_last::{self, Keys};
+use crate::tessellate::{self, Evaluate, Levels, OwnSteps};
 use crate::{draw, local, pixels, stages};
 
 /// What can go wrong on the CPU.
@@ -89,6 +90,8 @@ pub struct CpuDevice {
     /// Of the sort-last rasteriser.
     keys: Keys,
     steps: Option<Steps>,
+    /// Of the tessellator.
+    own: OwnSteps,
 }
 
 impl CpuDevice {
@@ -103,13 +106,23 @@ impl CpuDevice {
             .map_err(|error| CpuError::Threads(error.to_string()))?;
         let allocated = Arc::default();
         let (lists, keys) = (Lists::new(&allocated), Keys::new(&allocated));
-        Ok(Self { pool, lists, keys, allocated, steps: None })
+        Ok(Self { pool, lists, keys, allocated, steps: None, own: OwnSteps::default() })
     }
 
     /// Number of threads.
     #[must_use]
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()
+    }
+
+    /// From now on the tessellator takes the levels of patches from the caller; from its own control again with `None`.
+    pub fn control_tessellation(&mut self, levels: Option<Arc<Levels>>) {
+        self.own.levels = levels;
+    }
+
+    /// From now on the tessellator's vertices are the caller's; those of its own evaluation again with `None`.
+    pub fn evaluate_tessellation(&mut self, evaluate: Option<Arc<Evaluate>>) {
+        self.own.evaluate = evaluate;
     }
 
     /// What the device is called in reports.
@@ -190,6 +203,9 @@ impl Device for CpuDevice {
             (Stage::Filter, Items::Count(_)) => pixels::filter(&self.pool, buffers),
             (Stage::MeshPlaces, _) => stages::mesh_places(buffers),
             (Stage::Mesh, Items::Count(count)) => stages::mesh(&self.pool, buffers, count),
+            (Stage::TessControl, _) => tessellate::tess_control(&self.pool, buffers, &self.own),
+            (Stage::TessPlaces, _) => tessellate::tess_places(buffers),
+            (Stage::TessEvaluate, _) => tessellate::tess_evaluate(&self.pool, buffers, &self.own),
             (Stage::Flush, _) => stages::flush(buffers),
             (Stage::KnownAnswers, Items::Count(count)) => stages::known_answers(buffers, count),
             _ => Err(CpuError::Bindings { stage: stage.name() }),

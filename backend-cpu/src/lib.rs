@@ -8,6 +8,8 @@ mod local;
 mod pixels;
 mod sort_last;
 mod stages;
+mod tessellate;
 
 pub use buffer::CpuBuffer;
 pub use device::{CpuDevice, CpuError};
+pub use tessellate::{Evaluate, Levels};

@@ -4,6 +4,7 @@
 
 mod groups;
 mod scenes;
+mod tessellations;
 
 use std::ops::RangeInclusive;
 
@@ -65,6 +66,9 @@ pub fn input(stage: Stage, round: u64) -> Input {
         Stage::Filter => filters(&mut random),
         Stage::MeshPlaces => mesh_places(&mut random),
         Stage::Mesh => meshes(&mut random),
+        Stage::TessControl => tessellations::control(&mut random),
+        Stage::TessPlaces => tessellations::places(&mut random),
+        Stage::TessEvaluate => tessellations::evaluate(&mut random),
         Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
         Stage::KnownAnswers => known(&mut random),
     };
@@ -89,6 +93,9 @@ const fn number(stage: Stage) -> u64 {
         Stage::SortLast => 13,
         Stage::Blend => 14,
         Stage::Filter => 15,
+        Stage::TessControl => 16,
+        Stage::TessPlaces => 17,
+        Stage::TessEvaluate => 18,
     }
 }
 

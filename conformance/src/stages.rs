@@ -4,7 +4,8 @@ use std::fmt;
 
 use micropoly_core::abi::{
     Colour, Control, Draw, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch,
-    Pixel, Question, Sample, Scalar, Shared, Slot, Surface, Tap, Verdict,
+    Pixel, Question, Sample, Scalar, Shared, Slot, Surface, Tap, TessFrame, TessLevels, TessPatch,
+    TessRecord, TessTotals, TessVertex, Verdict,
 };
 use micropoly_core::backend::Device;
 use micropoly_core::stage::{Access, Items, Stage};
@@ -97,8 +98,9 @@ fn transfer<D: Device>(
         };
     }
     by_name!(
-        u32, Patch, Object, Frame, Surface, Draw, Verdict, Slot, Control, Group, Question, Limits, Sample,
-        Colour, MeshVertex, MeshPlace, MeshTotals, Tap, Pixel
+        u32, f32, TessFrame, TessPatch, TessLevels, TessRecord, TessTotals, TessVertex, Patch, Object, Frame,
+        Surface, Draw, Verdict, Slot, Control, Group, Question, Limits, Sample, Colour, MeshVertex,
+        MeshPlace, MeshTotals, Tap, Pixel
     )
 }
 

@@ -129,6 +129,61 @@ shared_constants! {
     /// Bit of [`Patch::kind`]: the patch is rational.
     const KIND_RATIONAL: u32 = 256;
 
+    /// The coordinate 1 of a tessellated patch, and the level 1: both are multiples of 2⁻¹⁶.
+    const TESS_UNIT: u32 = 1 << 16;
+    /// Half of it.
+    const TESS_HALF: u32 = TESS_UNIT / 2;
+    /// The largest level.
+    const MAX_TESS_LEVEL: f32 = 64.0;
+    /// [`TessFrame::domain`]: patches are triangles.
+    const TESS_TRIANGLES: u32 = 0;
+    /// [`TessFrame::domain`]: patches are quadrilaterals.
+    const TESS_QUADS: u32 = 1;
+    /// [`TessFrame::domain`]: patches are rows of lines.
+    const TESS_ISOLINES: u32 = 2;
+    /// [`TessFrame::spacing`]: levels are rounded up, segments are equally long.
+    const TESS_EQUAL: u32 = 0;
+    /// [`TessFrame::spacing`]: segments are even in number, two of them shorter as the level has it.
+    const TESS_EVEN: u32 = 1;
+    /// [`TessFrame::spacing`]: segments are odd in number, two of them shorter as the level has it.
+    const TESS_ODD: u32 = 2;
+    /// Of [`TessFrame::flags`]: points are placed as in Stadlbauer 2019 and not as in Direct3D 11.
+    const TESS_STADLBAUER: u32 = 1;
+    /// Of [`TessFrame::flags`]: triangles are clockwise in (u, v).
+    const TESS_CLOCKWISE: u32 = 2;
+    /// Of [`TessFrame::flags`]: vertices are points, and there are no triangles or lines.
+    const TESS_POINTS: u32 = 4;
+    /// [`TessFrame::control`]: all patches have the levels of [`TessFrame::levels`].
+    const TESS_CONSTANT: u32 = 0;
+    /// [`TessFrame::control`]: the level of an edge is [`TessFrame::factor`] times its length over its distance from the eye.
+    const TESS_LENGTH: u32 = 1;
+    /// [`TessFrame::control`]: the level of an edge is [`TessFrame::factor`] over its distance from the eye.
+    const TESS_DISTANCE: u32 = 2;
+    /// [`TessFrame::evaluation`]: points of a patch lie on the plane, or the ruled surface, through its corners.
+    const TESS_LINEAR: u32 = 0;
+    /// [`TessFrame::evaluation`]: on its PN triangle (Vlachos et al. 2001).
+    const TESS_PN: u32 = 1;
+    /// [`TessFrame::evaluation`]: by Phong tessellation (Boubekeur and Alexa 2008).
+    const TESS_PHONG: u32 = 2;
+    /// [`TessFrame::evaluation`]: positions are the coordinates themselves, in units of 1.
+    const TESS_COORDINATES: u32 = 4;
+    /// [`TessFrame::control`]: each patch has levels of its own.
+    const TESS_GIVEN: u32 = 3;
+    /// [`TessFrame::evaluation`]: on the bicubic Bézier patch of its 16 points.
+    const TESS_BEZIER: u32 = 3;
+    /// Bits of a converted level that are the level, in units of 2⁻¹⁶.
+    const LEVEL_FIXED: u32 = 0x00ff_ffff;
+    /// Bit of a converted level: its number of segments is odd.
+    const LEVEL_ODD: u32 = 1 << 31;
+    /// Bit of a converted level: points are placed as in Stadlbauer 2019.
+    const LEVEL_STADLBAUER: u32 = 1 << 30;
+    /// Vertices that a work-group evaluates of a patch …
+    const PIECE_VERTICES: u32 = 128;
+    /// … and primitives that it lays.
+    const PIECE_PRIMITIVES: u32 = 256;
+    /// Most patches that are placed at once: all their vertices and indices are counted in 32 bits.
+    const TESS_WINDOW: u32 = 1 << 17;
+
     /// Most times that bumps are added, each twice as fine as the last.
     const MAX_OCTAVES: u32 = 8;
     /// Bumps have no shape farther than so many of them from the origin.
@@ -268,6 +323,10 @@ pub trait Shared: Pod {
 
 impl Shared for u32 {
     const LAYOUT: Layout = Layout { name: "u32", size: 4, fields: &[] };
+}
+
+impl Shared for f32 {
+    const LAYOUT: Layout = Layout { name: "f32", size: 4, fields: &[] };
 }
 
 /// What a field of a shared struct may be.
@@ -468,6 +527,108 @@ shared_structs! {
         taps: u32,
         /// Number of objects.
         object_count: u32,
+    }
+
+    /// What all patches of a tessellation have in common.
+    struct TessFrame {
+        /// How many patches there are.
+        patch_count: u32,
+        /// `TESS_TRIANGLES`, `TESS_QUADS` or `TESS_ISOLINES`.
+        domain: u32,
+        /// `TESS_EQUAL`, `TESS_EVEN` or `TESS_ODD`.
+        spacing: u32,
+        /// `TESS_…` bits.
+        flags: u32,
+        /// `TESS_CONSTANT`, `TESS_LENGTH` or `TESS_DISTANCE`.
+        control: u32,
+        /// `TESS_LINEAR`, `TESS_PN`, `TESS_PHONG` or `TESS_BEZIER`.
+        evaluation: u32,
+        /// Columns of the height map, 0 = there is none.
+        columns: u32,
+        /// Rows of the height map.
+        rows: u32,
+        /// Outer levels where they are the same for all patches.
+        outer: [f32; 4],
+        /// Inner levels where they are.
+        inner: [f32; 2],
+        /// Where the eye is, in the space of the patches.
+        eye: [f32; 3],
+        /// Level of an edge as long as it is far away, or at distance 1.
+        factor: f32,
+        /// Length along the normal of the height 1.
+        scale: f32,
+        /// Share of Phong tessellation in a point; the rest is linear.
+        phong: f32,
+        /// Always 0, which compilers cannot know.
+        zero: u32,
+    }
+
+    /// A patch to be tessellated.
+    struct TessPatch {
+        /// Three coordinates a point. Of triangles and quadrilaterals the corners, at (u, v, w) = (1, 0, 0), (0, 1, 0) and
+        /// (0, 0, 1), or (u, v) = (0, 0), (1, 0), (1, 1) and (0, 1), then from the fifth on the normals there; of Bézier
+        /// patches 16 control points, index `4·i + j` with `i` along `u`. Isolines are quadrilaterals.
+        points: [f32; 48],
+        /// Texture coordinates of the corners.
+        uv: [f32; 8],
+        /// Where heights are looked up for an outer edge, its first and its last point: those of whichever of the patches
+        /// that share it is its owner, so that all of them find the same.
+        edges: [f32; 16],
+        /// Where heights are looked up for the corners.
+        corners: [f32; 8],
+    }
+
+    /// Levels of a patch as OpenGL has them: edges u = 0, v = 0, w = 0 of a triangle, u = 0, v = 0, u = 1, v = 1 of a
+    /// quadrilateral; of isolines how many there are, then their segments.
+    struct TessLevels {
+        /// Outer levels.
+        outer: [f32; 4],
+        /// Inner levels: of a triangle one; of a quadrilateral along u and along v.
+        inner: [f32; 2],
+    }
+
+    /// What control says of a patch, and where its mesh goes.
+    struct TessRecord {
+        /// Converted levels, the outer ones first (see [`crate::tess::level`]).
+        levels: [u32; 6],
+        /// How many vertices it has.
+        vertices: u32,
+        /// How many triangles or lines.
+        primitives: u32,
+        /// Index of the first vertex in the chunk.
+        first_vertex: u32,
+        /// Index of the first primitive in the chunk.
+        first_primitive: u32,
+        /// Number of its first piece in the chunk.
+        first_piece: u32,
+    }
+
+    /// What a chunk of a tessellation comes to.
+    struct TessTotals {
+        /// Its first patch.
+        first: u32,
+        /// One past its last patch.
+        end: u32,
+        /// Room for vertices.
+        vertex_room: u32,
+        /// Room for primitives.
+        primitive_room: u32,
+        /// Vertices.
+        vertices: u32,
+        /// Triangles or lines.
+        primitives: u32,
+        /// Pieces.
+        pieces: u32,
+    }
+
+    /// A vertex of a tessellated patch.
+    struct TessVertex {
+        /// Position in the space of the patches.
+        position: [f32; 3],
+        /// Unit normal, or zero where there is none. Heights do not turn it.
+        normal: [f32; 3],
+        /// Texture coordinates.
+        uv: [f32; 2],
     }
 
     /// A sample that a pixel is made of.

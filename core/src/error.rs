@@ -41,6 +41,11 @@ pub enum PlanError {
         /// Largest size in bytes.
         limit: u64,
     },
+    /// What is to be tessellated contradicts itself.
+    Tessellation {
+        /// In which way, and what to do about it.
+        why: &'static str,
+    },
     /// BREADTH cannot make a mesh: its buffers of draws have no bound.
     BreadthMesh,
     /// A buffer ran full although its size was proven: smaller buffers were passed than the plan asked for.
@@ -77,6 +82,7 @@ impl fmt::Display for PlanError {
                     "the {buffer} buffer needs {bytes} bytes, but the device binds {limit} bytes at most at once"
                 )
             }
+            Self::Tessellation { why } => f.write_str(why),
             Self::BreadthMesh => {
                 write!(f, "the breadth scheduler cannot make a mesh; use any other, the mesh is the same")
             }

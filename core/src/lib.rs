@@ -45,4 +45,5 @@ pub mod render;
 pub mod schedule;
 pub mod stage;
 pub mod surface;
+pub mod tess;
 pub mod tessellate;

@@ -3,7 +3,8 @@
 
 use crate::abi::{
     Colour, Control, Draw, FLAG_SORT_LAST, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex,
-    Object, Patch, Pixel, Question, Sample, Shared, Slot, Surface, Tap, Verdict,
+    Object, Patch, Pixel, Question, Sample, Shared, Slot, Surface, Tap, TessFrame, TessLevels, TessPatch,
+    TessRecord, TessTotals, TessVertex, Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -112,6 +113,12 @@ pub enum Stage {
     MeshPlaces,
     /// Dice each drawn surface into a mesh: [`crate::kernel::mesh::mesh`].
     Mesh,
+    /// The tessellator: levels of each patch, and what it becomes: [`crate::kernel::tess_control`].
+    TessControl,
+    /// The tessellator: where patches go in a chunk: [`crate::kernel::tess_places`].
+    TessPlaces,
+    /// The tessellator: vertices and indices: [`crate::kernel::tess_evaluate`].
+    TessEvaluate,
     /// Empties the draw buffer: [`crate::kernel::take::flush`].
     Flush,
     /// Does the device compute as it must? [`crate::kernel::known_answers`].
@@ -120,7 +127,7 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 18] = [
         Self::Take,
         Self::Bound,
         Self::Scan,
@@ -134,6 +141,9 @@ impl Stage {
         Self::Filter,
         Self::MeshPlaces,
         Self::Mesh,
+        Self::TessControl,
+        Self::TessPlaces,
+        Self::TessEvaluate,
         Self::Flush,
         Self::KnownAnswers,
     ];
@@ -155,6 +165,9 @@ impl Stage {
             Self::Filter => "filter",
             Self::MeshPlaces => "mesh_places",
             Self::Mesh => "mesh",
+            Self::TessControl => "tess_control",
+            Self::TessPlaces => "tess_places",
+            Self::TessEvaluate => "tess_evaluate",
             Self::Flush => "flush",
             Self::KnownAnswers => "known_answers",
         }
@@ -286,6 +299,38 @@ impl Stage {
                         read::<Draw>("draws"),
                         read::<MeshPlace>("places"),
                         write::<MeshVertex>("vertices"),
+                        write::<u32>("indices"),
+                    ]
+                }
+            }
+            Self::TessControl => {
+                const {
+                    &[
+                        read::<TessFrame>("tess_frame"),
+                        read::<TessPatch>("tess_patches"),
+                        read::<TessLevels>("levels"),
+                        write::<TessRecord>("records"),
+                    ]
+                }
+            }
+            Self::TessPlaces => {
+                const {
+                    &[
+                        read::<TessFrame>("tess_frame"),
+                        write::<TessRecord>("records"),
+                        write::<TessTotals>("totals"),
+                    ]
+                }
+            }
+            Self::TessEvaluate => {
+                const {
+                    &[
+                        read::<TessFrame>("tess_frame"),
+                        read::<TessPatch>("tess_patches"),
+                        read::<f32>("heights"),
+                        read::<TessRecord>("records"),
+                        read::<TessTotals>("totals"),
+                        write::<TessVertex>("tess_vertices"),
                         write::<u32>("indices"),
                     ]
                 }

@@ -33,6 +33,33 @@
 #define KIND_HALVED 15u
 #define KIND_HALF_SHIFT 4u
 #define KIND_RATIONAL 256u
+#define TESS_UNIT 65536u
+#define TESS_HALF 32768u
+#define MAX_TESS_LEVEL 6.4e1f
+#define TESS_TRIANGLES 0u
+#define TESS_QUADS 1u
+#define TESS_ISOLINES 2u
+#define TESS_EQUAL 0u
+#define TESS_EVEN 1u
+#define TESS_ODD 2u
+#define TESS_STADLBAUER 1u
+#define TESS_CLOCKWISE 2u
+#define TESS_POINTS 4u
+#define TESS_CONSTANT 0u
+#define TESS_LENGTH 1u
+#define TESS_DISTANCE 2u
+#define TESS_LINEAR 0u
+#define TESS_PN 1u
+#define TESS_PHONG 2u
+#define TESS_COORDINATES 4u
+#define TESS_GIVEN 3u
+#define TESS_BEZIER 3u
+#define LEVEL_FIXED 16777215u
+#define LEVEL_ODD 2147483648u
+#define LEVEL_STADLBAUER 1073741824u
+#define PIECE_VERTICES 128u
+#define PIECE_PRIMITIVES 256u
+#define TESS_WINDOW 131072u
 #define MAX_OCTAVES 8u
 #define LATTICE_END 4.194304e6f
 #define LATTICE_NEAR 9.536743e-7f
@@ -139,6 +166,61 @@ typedef struct {
     uint taps;
     uint object_count;
 } Frame;
+
+typedef struct {
+    uint patch_count;
+    uint domain;
+    uint spacing;
+    uint flags;
+    uint control;
+    uint evaluation;
+    uint columns;
+    uint rows;
+    float outer[4];
+    float inner[2];
+    float eye[3];
+    float factor;
+    float scale;
+    float phong;
+    uint zero;
+} TessFrame;
+
+typedef struct {
+    float points[48];
+    float uv[8];
+    float edges[16];
+    float corners[8];
+} TessPatch;
+
+typedef struct {
+    float outer[4];
+    float inner[2];
+} TessLevels;
+
+typedef struct {
+    uint levels[6];
+    uint vertices;
+    uint primitives;
+    uint first_vertex;
+    uint first_primitive;
+    uint first_piece;
+} TessRecord;
+
+typedef struct {
+    uint first;
+    uint end;
+    uint vertex_room;
+    uint primitive_room;
+    uint vertices;
+    uint primitives;
+    uint pieces;
+} TessTotals;
+
+typedef struct {
+    float position[3];
+    float normal[3];
+    float uv[2];
+} TessVertex;
 
 typedef struct {
     float weight;

@@ -33,6 +33,33 @@ const OWNER_IS_REVERSED: u32 = 1u;
 const KIND_HALVED: u32 = 15u;
 const KIND_HALF_SHIFT: u32 = 4u;
 const KIND_RATIONAL: u32 = 256u;
+const TESS_UNIT: u32 = 65536u;
+const TESS_HALF: u32 = 32768u;
+const MAX_TESS_LEVEL: f32 = 6.4e1f;
+const TESS_TRIANGLES: u32 = 0u;
+const TESS_QUADS: u32 = 1u;
+const TESS_ISOLINES: u32 = 2u;
+const TESS_EQUAL: u32 = 0u;
+const TESS_EVEN: u32 = 1u;
+const TESS_ODD: u32 = 2u;
+const TESS_STADLBAUER: u32 = 1u;
+const TESS_CLOCKWISE: u32 = 2u;
+const TESS_POINTS: u32 = 4u;
+const TESS_CONSTANT: u32 = 0u;
+const TESS_LENGTH: u32 = 1u;
+const TESS_DISTANCE: u32 = 2u;
+const TESS_LINEAR: u32 = 0u;
+const TESS_PN: u32 = 1u;
+const TESS_PHONG: u32 = 2u;
+const TESS_COORDINATES: u32 = 4u;
+const TESS_GIVEN: u32 = 3u;
+const TESS_BEZIER: u32 = 3u;
+const LEVEL_FIXED: u32 = 16777215u;
+const LEVEL_ODD: u32 = 2147483648u;
+const LEVEL_STADLBAUER: u32 = 1073741824u;
+const PIECE_VERTICES: u32 = 128u;
+const PIECE_PRIMITIVES: u32 = 256u;
+const TESS_WINDOW: u32 = 131072u;
 const MAX_OCTAVES: u32 = 8u;
 const LATTICE_END: f32 = 4.194304e6f;
 const LATTICE_NEAR: f32 = 9.536743e-7f;
@@ -138,6 +165,61 @@ struct Frame {
     shown_bottom: u32,
     taps: u32,
     object_count: u32,
+}
+
+struct TessFrame {
+    patch_count: u32,
+    domain: u32,
+    spacing: u32,
+    flags: u32,
+    control: u32,
+    evaluation: u32,
+    columns: u32,
+    rows: u32,
+    outer: array<f32, 4>,
+    inner: array<f32, 2>,
+    eye: array<f32, 3>,
+    factor: f32,
+    scale: f32,
+    phong: f32,
+    zero: u32,
+}
+
+struct TessPatch {
+    points: array<f32, 48>,
+    uv: array<f32, 8>,
+    edges: array<f32, 16>,
+    corners: array<f32, 8>,
+}
+
+struct TessLevels {
+    outer: array<f32, 4>,
+    inner: array<f32, 2>,
+}
+
+struct TessRecord {
+    levels: array<u32, 6>,
+    vertices: u32,
+    primitives: u32,
+    first_vertex: u32,
+    first_primitive: u32,
+    first_piece: u32,
+}
+
+struct TessTotals {
+    first: u32,
+    end: u32,
+    vertex_room: u32,
+    primitive_room: u32,
+    vertices: u32,
+    primitives: u32,
+    pieces: u32,
+}
+
+struct TessVertex {
+    position: array<f32, 3>,
+    normal: array<f32, 3>,
+    uv: array<f32, 2>,
 }
 
 struct Tap {

@@ -27,5 +27,8 @@ pub mod sides;
 pub mod sort_last;
 pub mod split;
 pub mod take;
+pub mod tess_control;
+pub mod tess_evaluate;
+pub mod tess_places;
 pub mod triangle;
 pub mod weber;
