@@ -154,6 +154,16 @@ impl SceneObject {
     }
 }
 
+/// A camera from which a box can be seen.
+pub(crate) fn camera_around(low: DVec3, high: DVec3, up: DVec3) -> Result<Camera> {
+    let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
+    let radius = if radius > 0.0 { radius } else { 1.0 };
+    let front = up.cross(DVec3::X);
+    let eye = middle + (DVec3::X * 0.5 - front * 0.75 + up * 0.45).normalize() * radius * 3.0;
+    Camera::look_at(eye, middle, up, 40.0, radius * 0.01)
+        .ok_or_else(|| Error::scene("the patches lie too far out", "scale them down"))
+}
+
 impl Scene {
     /// Reads a scene file (`.toml`, `.mscene` or `.rib`), or a file of geometry (`.obj` or `.bpt`) with a camera that shows
     /// all of it.
@@ -209,12 +219,7 @@ impl Scene {
         let material = Material { colour: Vec3::splat(0.6), specular: 0.2, gloss: 5, opacity: 1.0 };
         let objects = vec![SceneObject::new(shape, material)];
         let (low, high) = bounds_of(&objects);
-        let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
-        let radius = if radius > 0.0 { radius } else { 1.0 };
-        let front = up.cross(DVec3::X);
-        let eye = middle + (DVec3::X * 0.5 - front * 0.75 + up * 0.45).normalize() * radius * 3.0;
-        let camera = Camera::look_at(eye, middle, up, 40.0, radius * 0.01)
-            .ok_or_else(|| Error::scene("the patches lie too far out", "scale them down"))?;
+        let camera = camera_around(low, high, up)?;
         let to_light = camera.view.inverse().transform_vector3(DVec3::new(-0.5, 0.8, 0.9));
         Ok(Self {
             name,

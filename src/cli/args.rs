@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use bytesize::ByteSize;
-use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
 use micropoly::cage::{MOST_LEVELS, Options};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
@@ -18,7 +18,9 @@ use micropoly::{
 };
 
 use super::eval::{BoundaryChoice, EvalArguments};
+use super::levels::LevelArguments;
 use super::progress::Progress;
+use super::tess_pattern::TessPatternArguments;
 
 /// Reyes micropolygon renderer: the same bits on every device.
 #[derive(Debug, Parser)]
@@ -44,6 +46,8 @@ pub(crate) enum Command {
     Conform(ConformArguments),
     /// Say where the surface of a cage is at some of its places.
     Eval(EvalArguments),
+    /// Say what the tessellator makes of levels: lines of JSON in, lines of JSON out, to be compared with drivers.
+    TessPattern(TessPatternArguments),
     /// Measure subdivision: scheduler × batch × scene × backend (Weber 2014, Table 7.2).
     Bench(BenchArguments),
 }
@@ -52,7 +56,7 @@ pub(crate) enum Command {
 #[derive(Debug, Args)]
 pub(crate) struct SceneArguments {
     /// Scene file (.toml, .mscene, .rib) or file of geometry (.obj, .bpt).
-    scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// Levels of refinement of Catmull-Clark cages around what is not regular.
     #[arg(long, value_name = "N", default_value_t = Options::default().levels,
           value_parser = value_parser!(u32).range(0..=i64::from(MOST_LEVELS)))]
@@ -166,15 +170,18 @@ impl RenderArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("by_scene").multiple(true).args([
+    "cc_levels", "boundary", "micropolygon_size", "dice", "max_depth", "visible", "oracle", "tolerance",
+]))]
 pub(crate) struct TessellateArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Mesh file to write (.obj, .ply or .glb).
+    /// Mesh file to write (.obj, .ply or .glb), or `none`, which makes a mesh by levels and keeps it to itself.
     #[arg(short, long, value_name = "FILE", value_parser = mesh_path)]
-    pub(crate) output: (PathBuf, Format),
+    pub(crate) output: (PathBuf, Option<Format>),
     /// Size in pixels of the image that the mesh is meant for.
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = resolution)]
-    res: (u32, u32),
+    pub(crate) res: (u32, u32),
     /// Longest side of a micropolygon on screen, in pixels; each becomes two triangles.
     #[arg(long, value_name = "PIXELS", default_value = "1", allow_negative_numbers = true, value_parser = pixels)]
     micropolygon_size: f32,
@@ -197,10 +204,12 @@ pub(crate) struct TessellateArguments {
     pub(crate) check: bool,
     /// What to tessellate on. The mesh does not depend on it.
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
-    backend: BackendChoice,
+    pub(crate) backend: BackendChoice,
     /// Number or part of the name of a device of the backend (see `micropoly devices`).
     #[arg(long, value_name = "N|NAME")]
-    device: Option<String>,
+    pub(crate) device: Option<String>,
+    #[command(flatten)]
+    pub(crate) levels: LevelArguments,
 }
 
 impl TessellateArguments {
@@ -315,6 +324,9 @@ pub(crate) struct BenchArguments {
     /// Measure how cages become patches instead: regular tori, tori with extraordinary vertices, and triangles.
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "scenes"])]
     pub(crate) cage: bool,
+    /// Measure the tessellator instead: meshes × levels (Stadlbauer 2019, ch. 6).
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "scenes"])]
+    pub(crate) tess: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]
@@ -767,11 +779,11 @@ fn frames(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
-fn mesh_path(text: &str) -> Result<(PathBuf, Format), String> {
+fn mesh_path(text: &str) -> Result<(PathBuf, Option<Format>), String> {
     let path = PathBuf::from(text);
     match Format::of(&path) {
-        Some(format) => Ok((path, format)),
-        None => Err("choose a name that ends in .obj, .ply or .glb".into()),
+        None if text != "none" => Err("choose a name that ends in .obj, .ply or .glb, or none".into()),
+        format => Ok((path, format)),
     }
 }
 
@@ -794,7 +806,7 @@ fn pixels(text: &str) -> Result<f32, String> {
     }
 }
 
-fn bytes(text: &str) -> Result<u64, String> {
+pub(super) fn bytes(text: &str) -> Result<u64, String> {
     match text.parse::<ByteSize>() {
         Ok(size) => Ok(size.as_u64()),
         Err(_) => Err("write a number of bytes, for example 67108864, 64MiB or 1GB".into()),

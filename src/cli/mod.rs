@@ -14,16 +14,19 @@ mod bench;
 mod bench_cage;
 mod bench_dicing;
 mod bench_raster;
+mod bench_tess;
 mod conform;
 mod devices;
 mod diff;
 mod eval;
 mod info;
+mod levels;
 mod output;
 mod plot;
 mod progress;
 mod render;
 mod summary;
+mod tess_pattern;
 mod tessellate;
 
 use std::process::ExitCode;
@@ -52,6 +55,8 @@ pub(crate) fn main() -> ExitCode {
         },
         Command::Conform(arguments) => conform::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::TessPattern(arguments) => tess_pattern::run(&arguments),
+        Command::Bench(arguments) if arguments.tess => bench_tess::run(&arguments),
         Command::Bench(arguments) if arguments.cage => bench_cage::run(&arguments),
         Command::Bench(arguments) if arguments.raster => bench_raster::run(&arguments),
         Command::Bench(arguments) if arguments.dicing => bench_dicing::run(&arguments),

@@ -7,7 +7,7 @@ mod glb;
 pub mod lengths;
 mod obj;
 mod ply;
-mod weld;
+pub(crate) mod weld;
 
 use std::path::Path;
 

@@ -5,7 +5,7 @@ use std::io::{Result, Write};
 use super::{Mesh, weld};
 
 pub(super) fn write(mesh: &Mesh, file: &mut impl Write) -> Result<()> {
-    let (places, place_of) = weld::places(mesh);
+    let (places, place_of) = weld::places(&mesh.positions);
     writeln!(file, "# micropoly: {} triangles", mesh.triangles.len())?;
     for [x, y, z] in places {
         writeln!(file, "v {x} {y} {z}")?;

@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::{Mesh, weld};
 
 pub(super) fn write(mesh: &Mesh, file: &mut impl Write) -> Result<()> {
-    let (places, place_of) = weld::places(mesh);
+    let (places, place_of) = weld::places(&mesh.positions);
     let mut normals = vec![Vec3::ZERO; places.len()];
     for (normal, place) in mesh.normals.iter().zip(&place_of) {
         normals[*place as usize] += Vec3::from(*normal);

@@ -24,10 +24,10 @@ impl<K: Eq + Hash> Numbers<K> {
     }
 }
 
-/// The places of a mesh, each once, and the place of each vertex.
-pub(super) fn places(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<u32>) {
+/// Where vertices are, each place once, and the place of each vertex.
+pub(crate) fn places(positions: &[[f32; 3]]) -> (Vec<[f32; 3]>, Vec<u32>) {
     let (mut places, mut known) = (Vec::new(), Numbers::default());
-    let of_vertices = mesh.positions.iter().map(|position| {
+    let of_vertices = positions.iter().map(|position| {
         let (number, is_new) = known.number(position.map(f32::to_bits));
         if is_new {
             places.push(*position);
@@ -40,7 +40,7 @@ pub(super) fn places(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<u32>) {
 
 /// Edges, between places, that are not run through as often one way as the other.
 pub(super) fn open_edges(mesh: &Mesh) -> usize {
-    let (_, places) = places(mesh);
+    let (_, places) = places(&mesh.positions);
     let mut edges: HashMap<(u32, u32), i32> = HashMap::new();
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.map(|corner| places[corner as usize]);

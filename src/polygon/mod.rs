@@ -132,6 +132,34 @@ pub fn polygons(cage: &Cage) -> Result<Vec<BezierPatch>, PolygonError> {
     Ok(parts.into_iter().collect::<Result<Vec<_>, _>>()?.concat())
 }
 
+/// The triangles of all faces that are no holes, face by face, as numbers of corners of the mesh; no edge is divided.
+///
+/// # Errors
+/// As [`polygons`].
+pub fn triangles(mesh: &Cage) -> Result<Vec<[u32; 3]>, PolygonError> {
+    check(mesh)?;
+    let is_hole = holes(mesh)?;
+    let (mut triangles, mut start) = (Vec::new(), 0);
+    for (face, &size) in mesh.face_sizes.iter().enumerate() {
+        let range = start as usize..(start + size) as usize;
+        let corners = face_corners(mesh, &(face, range))?;
+        if !is_hole[face] {
+            let own = triangles_of(face, &corners)?;
+            triangles.extend(own.into_iter().map(|triangle| triangle.map(|corner| start + corner as u32)));
+        }
+        start += size;
+    }
+    Ok(triangles)
+}
+
+fn triangles_of(face: usize, corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, PolygonError> {
+    match corners.len() {
+        3 => Ok(vec![[0, 1, 2]]),
+        size if size > MOST_CORNERS => Err(PolygonError::Concave { face, size }),
+        _ => Ok(triangulated(&Flat::new(corners).of(corners))),
+    }
+}
+
 /// Faces that one thread works off in a row.
 const FACES_AT_ONCE: usize = 1024;
 
@@ -140,17 +168,20 @@ type Face = (usize, std::ops::Range<usize>);
 
 fn patches_of(cage: &Cage, faces: &[Face]) -> Result<Vec<BezierPatch>, PolygonError> {
     let mut patches = Vec::with_capacity(faces.len());
-    let mut corners = Vec::new();
-    for (face, range) in faces {
-        corners.clear();
-        for &vertex in &cage.corners[range.clone()] {
-            let vertices = cage.positions.len();
-            let wrong = PolygonError::Vertex { face: *face, vertex, vertices };
-            corners.push(*cage.positions.get(vertex as usize).ok_or(wrong)?);
-        }
-        add_polygon(*face, &corners, &mut patches)?;
+    for face in faces {
+        add_polygon(face.0, &face_corners(cage, face)?, &mut patches)?;
     }
     Ok(patches)
+}
+
+/// Where the corners of a face are.
+fn face_corners(cage: &Cage, (face, range): &Face) -> Result<Vec<[f64; 3]>, PolygonError> {
+    let vertices = cage.positions.len();
+    let position = |&vertex: &u32| {
+        let wrong = PolygonError::Vertex { face: *face, vertex, vertices };
+        cage.positions.get(vertex as usize).copied().ok_or(wrong)
+    };
+    cage.corners[range.clone()].iter().map(position).collect()
 }
 
 fn check(cage: &Cage) -> Result<(), PolygonError> {

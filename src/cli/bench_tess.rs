@@ -1,0 +1,41 @@
+//! `micropoly bench --tess`: what the tessellator costs.
+
+use micropoly::Result;
+use micropoly::bench::devices;
+use micropoly::tess::{Row, measure};
+
+use super::args::BenchArguments;
+use super::render::write_json;
+
+/// Bytes of a device's memory.
+const MEMORY: u64 = 256 << 20;
+
+pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
+    say!(
+        "{:<12} {:>7} {:>5} {:>11} {:>7} {:>11} {:>14} {:>14}",
+        "mesh",
+        "patches",
+        "level",
+        "triangles",
+        "chunks",
+        "control ms",
+        "evaluation ms",
+        "M triangles/s"
+    );
+    let mut rows = Vec::new();
+    for entry in devices(arguments.backend.only())? {
+        say!("{}", entry.name);
+        rows.extend(measure(&entry, MEMORY, arguments.repeat, |row| say!("{}", line(row)))?);
+    }
+    match &arguments.json {
+        Some(path) => write_json(path, &rows),
+        None => Ok(()),
+    }
+}
+
+fn line(row: &Row) -> String {
+    format!(
+        "{:<12} {:>7} {:>5} {:>11} {:>7} {:>11.2} {:>14.2} {:>14.1}",
+        row.mesh, row.patches, row.level, row.triangles, row.chunks, row.control, row.evaluation, row.rate
+    )
+}
