@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use micropoly_core::abi::{TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex};
 use micropoly_core::kernel::tess_control::{control, record};
-use micropoly_core::kernel::tess_evaluate::{Span, built_in, corners, indices, vertices};
+use micropoly_core::kernel::tess_evaluate::{Evaluation, Span, built_in, corners, indices, vertices};
 use micropoly_core::kernel::tess_places::places as place_patches;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -113,10 +113,23 @@ pub(crate) fn tess_evaluate(
     Ok(())
 }
 
+/// The caller's own evaluation of one patch.
+struct ByCaller<'a> {
+    index: u32,
+    patch: &'a TessPatch,
+    evaluate: &'a Evaluate,
+}
+
+impl Evaluation for ByCaller<'_> {
+    fn at(&self, coordinates: [u32; 3]) -> TessVertex {
+        (self.evaluate)(self.index, self.patch, coordinates)
+    }
+}
+
 fn by_caller(frame: &TessFrame, patch: &TessPatch, record: &TessRecord, job: Job<'_>, evaluate: &Evaluate) {
     let topology = record.topology(frame);
     let whole = Span { first: 0, end: record.vertices };
-    vertices(&topology, whole, job.vertices, |coordinates| evaluate(job.index, patch, coordinates));
+    vertices(&topology, whole, job.vertices, &ByCaller { index: job.index, patch, evaluate });
     let whole = Span { first: 0, end: record.primitives };
     indices(frame, &topology, record.first_vertex, whole, job.indices);
 }

@@ -66,7 +66,7 @@ pub struct Strip {
     /// How its triangles are laid.
     pub kind: Kind,
     /// Marks on half of the outside and of the inside, if it is [`Kind::Between`].
-    pub(super) marks: [u32; 2],
+    pub marks: [u32; 2],
 }
 
 impl Strip {

@@ -167,7 +167,13 @@ const fn minus(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
 #[inline(always)]
 const fn unit(a: [f32; 3]) -> [f32; 3] {
     let square = dot3(a, a);
-    if square > SHADE_TINY { flush3(scale3(a, rsqrt(square))) } else { [0.0; 3] }
+    let scaled = flush3(scale3(a, rsqrt(square)));
+    let is_long = square > SHADE_TINY;
+    [
+        if is_long { scaled[0] } else { 0.0 },
+        if is_long { scaled[1] } else { 0.0 },
+        if is_long { scaled[2] } else { 0.0 },
+    ]
 }
 
 /// A point of a bicubic patch, and the normal of its tangents.

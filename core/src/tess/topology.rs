@@ -42,6 +42,47 @@ pub struct Side {
     pub side: u32,
 }
 
+/// Where the vertices of a side are: on a line, along a division.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    division: Division,
+    /// Point of the division at which the first vertex is.
+    first: u32,
+    is_forward: bool,
+    side: u32,
+    /// How far the line is from the edge of the domain that has this side.
+    depth: u32,
+    /// How much earlier the line begins and ends, on a triangle.
+    inset: u32,
+    sides: u32,
+}
+
+impl Row {
+    /// Coordinates of a vertex, counted from the first of the side, in units of 2⁻¹⁶; they add up to 1 on triangles, and there
+    /// is no third one on quadrilaterals and isolines.
+    #[inline(always)]
+    #[must_use]
+    pub const fn coordinates(&self, index: u32) -> [u32; 3] {
+        let point = if self.is_forward { self.first + index } else { self.first - index };
+        let place = self.division.place(point) - self.inset;
+        let depth = self.depth;
+        if self.sides == 3 {
+            let rest = ONE - place - depth;
+            return match self.side {
+                0 => [depth, place, rest],
+                1 => [place, depth, rest],
+                _ => [place, rest, depth],
+            };
+        }
+        match self.side {
+            0 => [depth, place, 0],
+            1 => [place, depth, 0],
+            2 => [ONE - depth, place, 0],
+            _ => [place, ONE - depth, 0],
+        }
+    }
+}
+
 impl Topology {
     /// Of a patch whose levels are converted.
     #[inline(always)]
@@ -146,63 +187,36 @@ impl Topology {
         Side { first, count: self.segments(side.ring, next), ring: side.ring, side: next }
     }
 
-    /// Coordinates of a vertex of a side, counted from its first one, in units of 2⁻¹⁶; they add up to 1 on triangles, and
-    /// have no third one on quads and isolines.
+    /// Where the vertices of a side are.
     #[inline(always)]
     #[must_use]
-    pub const fn coordinates(&self, side: Side, index: u32) -> [u32; 3] {
+    pub const fn row(&self, side: Side) -> Row {
+        let Side { ring, side, .. } = side;
         if self.domain == TESS_ISOLINES {
-            return [self.outer[1].place(index), self.outer[0].place(side.ring), 0];
-        }
-        if side.ring == 0 {
-            if self.is_whole() && self.sides == 4 {
-                // A square that is not divided begins at (0, 0), one side on.
-                return self.on_side((side.side + 1) % 4, if side.side < 2 { 0 } else { ONE }, 0);
-            }
-            let place = self.outer[side.side as usize].place(self.turned(side, index, 0));
-            return self.on_side(side.side, place, 0);
-        }
-        let (along, across) = (self.along(side.side), self.along(side.side + 1));
-        let place = along.place(self.turned(side, index, side.ring));
-        let depth = across.place(side.ring);
-        if self.sides == 3 {
-            // Rings of a triangle are as far from its edges as from each other.
-            let depth = (depth * TWO_THIRDS + HALF) >> 16;
-            return self.on_side(side.side, place - (depth + 1) / 2, depth);
-        }
-        self.on_side(side.side, place, depth)
-    }
-
-    /// Which point of its division a vertex is: sides 1 and 2 of quads, and 1 of triangles, run in the direction of
-    /// their coordinate.
-    #[inline(always)]
-    const fn turned(&self, side: Side, index: u32, ring: u32) -> u32 {
-        let is_forward = side.side == 1 || (side.side == 2 && self.sides == 4);
-        let segments = if ring == 0 {
-            self.outer[side.side as usize].segments()
-        } else {
-            self.along(side.side).segments()
-        };
-        if is_forward { ring + index } else { segments - ring - index }
-    }
-
-    /// Coordinates of a point at `place` along a side and `depth` away from it.
-    #[inline(always)]
-    const fn on_side(&self, side: u32, place: u32, depth: u32) -> [u32; 3] {
-        if self.sides == 3 {
-            let rest = ONE - place - depth;
-            return match side {
-                0 => [depth, place, rest],
-                1 => [place, depth, rest],
-                _ => [place, rest, depth],
+            let depth = self.outer[0].place(ring);
+            return Row {
+                division: self.outer[1],
+                first: 0,
+                is_forward: true,
+                side: 1,
+                depth,
+                inset: 0,
+                sides: 4,
             };
         }
-        match side {
-            0 => [depth, place, 0],
-            1 => [place, depth, 0],
-            2 => [ONE - depth, place, 0],
-            _ => [place, ONE - depth, 0],
+        // A square that is not divided begins at (0, 0), one side on.
+        let side = if self.is_whole() && self.sides == 4 { (side + 1) % 4 } else { side };
+        let division = if ring == 0 { self.outer[side as usize] } else { *self.along(side) };
+        // Sides 1 and 2 of quads, and 1 of triangles, run in the direction of their coordinate.
+        let is_forward = side == 1 || (side == 2 && self.sides == 4);
+        let first = if is_forward { ring } else { division.segments() - ring };
+        let depth = if ring == 0 { 0 } else { self.along(side + 1).place(ring) };
+        if self.sides == 4 {
+            return Row { division, first, is_forward, side, depth, inset: 0, sides: 4 };
         }
+        // Rings of a triangle are as far from its edges as from each other.
+        let depth = (depth * TWO_THIRDS + HALF) >> 16;
+        Row { division, first, is_forward, side, depth, inset: (depth + 1) / 2, sides: 3 }
     }
 
     /// The strip that has a triangle.
