@@ -3,6 +3,8 @@
 //!
 //!     cargo run --release --features wgpu --example mesh_on_gpu -- scenes/teapot.toml mesh.png
 
+mod gpu;
+
 use std::error::Error;
 
 use bytemuck::cast_slice;
@@ -12,6 +14,8 @@ use micropoly::core::render::FramePlan;
 use micropoly::core::tessellate::MeshBuffers;
 use micropoly::{DeviceScene, FrameOptions, Image, Scene};
 use pollster::block_on;
+
+use gpu::{depth_test, fetched, texture};
 
 /// Positions are in the space of their objects, so each vertex looks up its object.
 const SHADER: &str = "
@@ -144,13 +148,7 @@ fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
             })],
         },
         primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: wgpu::TextureFormat::Depth32Float,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
+        depth_stencil: Some(depth_test()),
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
@@ -197,48 +195,4 @@ fn bindings(
     }
     let layout = pipeline.get_bind_group_layout(0);
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
-}
-
-fn texture(device: &wgpu::Device, size: wgpu::Extent3d, format: wgpu::TextureFormat) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
-}
-
-/// Runs the commands and fetches the picture.
-fn fetched(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    mut commands: wgpu::CommandEncoder,
-    picture: &wgpu::Texture,
-) -> Result<Image, Box<dyn Error>> {
-    let (width, height) = (picture.width(), picture.height());
-    let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: u64::from(row) * u64::from(height),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
-    let target = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
-    commands.copy_texture_to_buffer(picture.as_image_copy(), target, picture.size());
-    queue.submit([commands.finish()]);
-    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
-    device.poll(wgpu::PollType::wait_indefinitely())?;
-    let bytes = buffer.get_mapped_range(..)?;
-    let mut rgb = Vec::new();
-    for line in bytes.chunks_exact(row as usize) {
-        for pixel in line[..4 * width as usize].chunks_exact(4) {
-            rgb.extend_from_slice(&pixel[..3]);
-        }
-    }
-    Ok(Image { width, height, rgb })
 }

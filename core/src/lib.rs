@@ -21,6 +21,7 @@
 //! | samples become pixels | [`kernel::filter::filter`] | `kernel/filter.rs`, `reconstruction.rs` |
 //! | who calls what, in which order | [`schedule::Bounded`], [`render::FramePlan`] | `schedule/`, `render.rs` |
 //! | how much memory that can ever need | [`memory`] | `memory.rs` |
+//! | the tessellation stage that WebGPU has not got | [`tess`], [`kernel::tess_evaluate`] | `tess/`, `kernel/tess_*.rs` |
 //! | does a device compute as it must | [`known::check`] | `known.rs`, `kernel/known_answers.rs` |
 //! | what a backend must bring | [`backend::Device`] | `backend.rs` |
 //!

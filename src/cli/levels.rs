@@ -104,9 +104,6 @@ pub(crate) fn run(arguments: &TessellateArguments) -> Result<()> {
     for note in source.notes.iter().chain(&done.notes) {
         eprintln!("note: {note}");
     }
-    if done.counts.dropped > 0 {
-        eprintln!("note: {} patches are dropped, as their levels are not above 0", done.counts.dropped);
-    }
     if let (Some(mesh), Some(format)) = (&done.mesh, format) {
         mesh.save(path, *format)?;
         eprintln!("mesh          {}", path.display());

@@ -46,8 +46,6 @@ pub struct TessCounts {
     pub primitives: u64,
     /// Chunks.
     pub chunks: u64,
-    /// Patches that were dropped, as an outer level was not above 0.
-    pub dropped: u64,
 }
 
 /// Buffers of a tessellation in the device's memory.
