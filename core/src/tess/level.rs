@@ -14,6 +14,8 @@ use crate::num::{clamp, floor, mul, neg, round};
 const NEARLY_ONE: f32 = 1.0 + 0.5 / TESS_UNIT as f32;
 /// The smallest level above 1.
 const BARELY_MORE: f32 = 1.0 + 1.0 / TESS_UNIT as f32;
+/// The largest level of an odd number of segments.
+const MOST_OF_ODD: f32 = MAX_TESS_LEVEL - 1.0;
 /// Bits of what is larger than every number.
 const INFINITE: u32 = f32::INFINITY.to_bits();
 
@@ -93,7 +95,7 @@ const fn clamped(spacing: u32, level: f32, least: f32) -> f32 {
     let level = if is_positive(level) { level } else { 0.0 };
     match spacing {
         TESS_EVEN => clamp(level, 2.0, MAX_TESS_LEVEL),
-        TESS_ODD => clamp(level, least, MAX_TESS_LEVEL - 1.0),
+        TESS_ODD => clamp(level, least, MOST_OF_ODD),
         _ => clamp(level, least, MAX_TESS_LEVEL),
     }
 }

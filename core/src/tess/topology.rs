@@ -168,7 +168,7 @@ impl Topology {
         if self.sides == 3 {
             // Rings of a triangle are as far from its edges as from each other.
             let depth = (depth * TWO_THIRDS + HALF) >> 16;
-            return self.on_side(side.side, place - (depth + 1) / 2, depth);
+            return self.on_side(side.side, place - depth.div_ceil(2), depth);
         }
         self.on_side(side.side, place, depth)
     }
@@ -266,7 +266,7 @@ impl Topology {
         let near = self.line_side();
         let (outside, inside) = (self.run(self.rings, near), self.run(self.rings, near + 2));
         let place = Strip { first, count, ring, side, outside, inside, ..Strip::NONE };
-        place.row(self.is_whole(), near > 0 || self.line() % 2 == 0)
+        place.row(self.is_whole(), near > 0 || self.line().is_multiple_of(2))
     }
 
     /// The vertices of one side of a ring, both corners among them.
@@ -315,7 +315,7 @@ impl Topology {
     /// Is the last ring a point or a line?
     #[inline(always)]
     const fn ends_in_line(&self) -> bool {
-        self.least() % 2 == 0
+        self.least().is_multiple_of(2)
     }
 
     /// Is it this ring?
