@@ -99,11 +99,10 @@ fn highest_bit(x: u32) -> u32 {
     return bits - (bits >> 1u);
 }
 
-// `a / b` in units of 2^-16, rounded; `a` <= `b` <= 2^23.
+// `a / b` in units of 2^-16, rounded; `a` < `b` <= 2^23.
 fn quotient(a: u32, b: u32) -> u32 {
-    let whole = a / b;
-    let high = (a % b) << 8u;
+    let high = a << 8u;
     let low = (high % b) << 8u;
     let rest = low % b;
-    return (whole << 16u) + ((high / b) << 8u) + low / b + select(0u, 1u, 2u * rest >= b);
+    return ((high / b) << 8u) + low / b + select(0u, 1u, 2u * rest >= b);
 }

@@ -131,12 +131,11 @@ pub const fn highest_bit(x: u32) -> u32 {
     bits - (bits >> 1)
 }
 
-/// `a / b` in units of 2⁻¹⁶, rounded; `a` ≤ `b` ≤ 2²³.
+/// `a / b` in units of 2⁻¹⁶, rounded; `a` < `b` ≤ 2²³.
 #[inline(always)]
 const fn quotient(a: u32, b: u32) -> u32 {
-    let whole = a / b;
-    let high = (a % b) << 8;
+    let high = a << 8;
     let low = (high % b) << 8;
     let rest = low % b;
-    (whole << 16) + ((high / b) << 8) + low / b + (2 * rest >= b) as u32
+    ((high / b) << 8) + low / b + (2 * rest >= b) as u32
 }
