@@ -53,9 +53,12 @@ fn told(said: &str, word: &str) -> String {
 #[test]
 fn levels_make_meshes_in_every_format_and_they_stay_closed() {
     let folder = folder(TETRAHEDRON);
-    for (level, spacing, triangles) in
-        [("1", "equal", 4), ("4", "equal", 4 * 24), ("3.5", "fractional-even", 4 * 24), ("2.5", "fractional-odd", 4 * 13)]
-    {
+    for (level, spacing, triangles) in [
+        ("1", "equal", 4),
+        ("4", "equal", 4 * 24),
+        ("3.5", "fractional-even", 4 * 24),
+        ("2.5", "fractional-odd", 4 * 13),
+    ] {
         for output in ["out.obj", "out.ply", "out.glb", "none"] {
             let said = tessellated(
                 &folder,
@@ -73,7 +76,8 @@ fn levels_make_meshes_in_every_format_and_they_stay_closed() {
 fn levels_of_detail_are_finer_near_the_eye() {
     let folder = folder(TETRAHEDRON);
     let count = |eye: &str| {
-        let said = tessellated(&folder, &["--lod", "8", "--eye", eye, "--res", "640x480", "--check", "-o", "none"]);
+        let said =
+            tessellated(&folder, &["--lod", "8", "--eye", eye, "--res", "640x480", "--check", "-o", "none"]);
         assert_eq!(told(&said, "open edges"), "0");
         told(&said, "triangles").parse::<u32>().expect("a number")
     };
@@ -106,7 +110,8 @@ fn height_maps_move_points_and_what_was_made_can_be_rendered() {
 #[test]
 fn what_cannot_be_done_by_levels_is_refused() {
     let folder = folder(TETRAHEDRON);
-    std::fs::write(folder.path().join("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n").expect("written");
+    std::fs::write(folder.path().join("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n")
+        .expect("written");
     std::fs::write(folder.path().join("plain.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
     std::fs::write(folder.path().join("scene.toml"), "").expect("written");
     std::fs::write(folder.path().join("text.png"), "no picture").expect("written");

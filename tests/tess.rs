@@ -7,8 +7,7 @@ use glam::DVec3;
 use micropoly::cage::Cage;
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::abi::{
-    TESS_ISOLINES, TESS_LINEAR, TESS_PN, TESS_QUADS, TESS_UNIT, TessFrame, TessLevels,
-    TessPatch, TessVertex,
+    TESS_ISOLINES, TESS_LINEAR, TESS_PN, TESS_QUADS, TESS_UNIT, TessFrame, TessLevels, TessPatch, TessVertex,
 };
 use micropoly::core::tess::stream::{TessCounts, TessInput};
 use micropoly::mesh::Mesh;

@@ -12,7 +12,7 @@ use crate::buffer::WgpuBuffer;
 use crate::chunk::{self, Chunk};
 use crate::error::WgpuError;
 use crate::info::{adapters, describe, instance};
-use crate::kernels::{self, Edit, Kernel, Kind, Slot, Which};
+use crate::kernels::{self, Edit, Kernel, Kind, Slot, Step, Which};
 
 /// Storage buffers that a kernel binds at most, and bytes that a group of it shares: what WebGPU promises everywhere.
 const STORAGE_BUFFERS: u32 = 8;
@@ -36,6 +36,8 @@ pub struct WgpuDevice {
     queue: wgpu::Queue,
     /// As [`Which::ALL`].
     kernels: Vec<Slot>,
+    /// Kernels with a part that is the caller's own, in the place of ours.
+    own: Vec<(Which, Kernel)>,
     /// What the fused stages need for themselves.
     chunk: Chunk,
     /// Numbers of groups of indirect dispatches.
@@ -120,6 +122,7 @@ impl WgpuDevice {
         Ok(Self {
             name,
             kernels: kernels?,
+            own: Vec::new(),
             chunk: Chunk::new(&device, &queue, software, &allocated),
             groups: memory(&device, "groups", 24, usage),
             staging: memory(&device, "staging", STAGING_BYTES + 4, read),
@@ -143,6 +146,41 @@ impl WgpuDevice {
         let limits = self.device.limits();
         let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(self.buffer_limit);
         limit - limit % layout.size as u64
+    }
+
+    /// From now on the tessellator takes the levels of patches from the caller's own WGSL; from its own control again with
+    /// `None`.
+    ///
+    /// It must define `fn levels_of(index: u32) -> TessLevels`, where `index` is the number of a patch. Where patches share
+    /// an edge, it must have the same level in all of them. It can use `tess_frame`, `tess_patches[index]`, `levels[index]`,
+    /// the structs and constants of `kernel/gen.wgsl`, all functions of the kernel's files, such as `built_in_levels(index)`,
+    /// and functions and constants of its own. What it computes is as exact as it is written: with `add`, `sub`, `mul` and
+    /// the like of `kernel/num.wgsl` it has the same bits on every device.
+    ///
+    /// # Errors
+    /// [`WgpuError::Own`] if it does not compile; then nothing changes.
+    pub fn control_tessellation(&mut self, own: Option<&str>) -> Result<(), WgpuError> {
+        self.put_own(Step::Control, own)
+    }
+
+    /// From now on the tessellator's vertices are those of the caller's own WGSL; those of its own evaluation again with
+    /// `None`.
+    ///
+    /// It must define `fn evaluated(index: u32, coordinates: vec3<u32>) -> TessVertex`, where `index` is the number of a patch
+    /// and coordinates are in units of 2⁻¹⁶. It can use `tess_frame`, `tess_patches[index]`, `heights` and what
+    /// [`WgpuDevice::control_tessellation`] tells of; `evaluate(index, coordinates)` is our own vertex.
+    ///
+    /// # Errors
+    /// [`WgpuError::Own`] if it does not compile; then nothing changes.
+    pub fn evaluate_tessellation(&mut self, own: Option<&str>) -> Result<(), WgpuError> {
+        self.put_own(Step::Evaluation, own)
+    }
+
+    fn put_own(&mut self, step: Step, own: Option<&str>) -> Result<(), WgpuError> {
+        let kernel = own.map(|own| kernels::with_own(&self.device, step, own)).transpose()?;
+        self.own.retain(|(which, _)| *which != step.kernel());
+        self.own.extend(kernel.map(|kernel| (step.kernel(), kernel)));
+        Ok(())
     }
 
     /// What the device is called in reports.
@@ -216,6 +254,9 @@ impl WgpuDevice {
 
     /// A kernel, compiled now if it was not needed before.
     fn kernel(&mut self, which: Which) -> Result<Kernel, WgpuError> {
+        if let Some((_, kernel)) = self.own.iter().find(|(own, _)| *own == which) {
+            return Ok(kernel.clone());
+        }
         let slot = &mut self.kernels[which.index()];
         let kernel = match slot {
             Slot::Compiled(kernel) => return Ok(kernel.clone()),
@@ -366,11 +407,13 @@ impl WgpuDevice {
     /// Number of groups of a stage; arranges them on the device if only it knows them.
     fn groups(&mut self, stage: Stage, items: Items, buffers: &[&WgpuBuffer]) -> Result<Groups, WgpuError> {
         match (stage, items) {
-            (Stage::Take | Stage::Balance | Stage::MeshPlaces | Stage::Flush, _)
+            (Stage::Take | Stage::Balance | Stage::MeshPlaces | Stage::TessPlaces | Stage::Flush, _)
             | (Stage::Scan, Items::Taken) => Ok(Groups::Known(1, 1)),
-            (Stage::KnownAnswers | Stage::Filter, Items::Count(count)) => {
+            (Stage::KnownAnswers | Stage::Filter | Stage::TessControl, Items::Count(count)) => {
                 Ok(spread(count.div_ceil(ITEMS_A_GROUP)))
             }
+            // A group a piece.
+            (Stage::TessEvaluate, Items::Count(count)) => Ok(spread(count)),
             // The kernels know how many there are by the length of their buffer.
             (Stage::Blend, Items::Count(count)) if buffers[0].entries() == count.into() => {
                 Ok(spread(count.div_ceil(ITEMS_A_GROUP)))

@@ -31,6 +31,15 @@ pub enum WgpuError {
         /// What the compiler says.
         reason: String,
     },
+    /// The caller's own step of the tessellator does not compile.
+    Own {
+        /// The stage that it is a part of.
+        stage: &'static str,
+        /// The function that it must define.
+        wanted: &'static str,
+        /// What the compiler says.
+        reason: String,
+    },
     /// The device computes otherwise than it must, so images would differ.
     Inexact {
         /// The device.
@@ -79,6 +88,11 @@ impl fmt::Display for WgpuError {
                 write!(f, "cannot open {device}: {reason}; update its driver or choose another device")
             }
             Self::Kernel { stage, reason } => write!(f, "the kernel {stage} does not compile: {reason}"),
+            Self::Own { stage, wanted, reason } => write!(
+                f,
+                "your own part of the kernel {stage} does not compile: {reason}\nit must define `{wanted}`, and no name \
+                 that the kernel has already"
+            ),
             Self::Inexact { device, mismatch } => inexact(f, device, mismatch),
             Self::TooLarge { buffer, bytes, limit } => write!(
                 f,

@@ -92,6 +92,19 @@ files! {
     BALANCE: "balance",
     DEAL: "deal",
     KNOWN_ANSWERS: "known_answers",
+    TESS_LEVEL: "tess_level",
+    TESS_DIVISION: "tess_division",
+    TESS_TOPOLOGY: "tess_topology",
+    TESS_STRIP: "tess_strip",
+    TESS_CORNER: "tess_corner",
+    TESS_EDGES: "tess_edges",
+    TESS_LEVELS_OF: "tess_levels_of",
+    TESS_CONTROL: "tess_control",
+    TESS_PLACES: "tess_places",
+    TESS_SURFACE: "tess_surface",
+    TESS_VERTEX: "tess_vertex",
+    TESS_EVALUATED: "tess_evaluated",
+    TESS_EVALUATE: "tess_evaluate",
     ARRANGE: "arrange",
 }
 
@@ -154,7 +167,7 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 32] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
@@ -170,6 +183,9 @@ impl Which {
         Self::Stage(Stage::Filter),
         Self::Stage(Stage::MeshPlaces),
         Self::Stage(Stage::Mesh),
+        Self::Stage(Stage::TessControl),
+        Self::Stage(Stage::TessPlaces),
+        Self::Stage(Stage::TessEvaluate),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::Arrange,
@@ -192,12 +208,19 @@ impl Which {
     }
 
     /// Is it compiled only when it is first needed? Those of LOCAL, of layers, of sort-last, of
-    /// meshes, and for any patch and profile are.
+    /// meshes, of the tessellator, and for any patch and profile are.
     const fn can_wait(self) -> bool {
         matches!(
             self,
-            Self::Stage(Stage::Local | Stage::Blend | Stage::MeshPlaces | Stage::Mesh)
-                | Self::BoundAny
+            Self::Stage(
+                Stage::Local
+                    | Stage::Blend
+                    | Stage::MeshPlaces
+                    | Stage::Mesh
+                    | Stage::TessControl
+                    | Stage::TessPlaces
+                    | Stage::TessEvaluate
+            ) | Self::BoundAny
                 | Self::BoundFlat
                 | Self::LocalAny
                 | Self::LocalFlat
@@ -246,6 +269,9 @@ impl Which {
             Self::Stage(Stage::Filter) => &[Stage::Filter],
             Self::Stage(Stage::MeshPlaces) => &[Stage::MeshPlaces],
             Self::Stage(Stage::Mesh) => &[Stage::Mesh],
+            Self::Stage(Stage::TessControl) => &[Stage::TessControl],
+            Self::Stage(Stage::TessPlaces) => &[Stage::TessPlaces],
+            Self::Stage(Stage::TessEvaluate) => &[Stage::TessEvaluate],
             Self::Stage(Stage::Flush) => &[Stage::Flush],
             Self::Stage(Stage::KnownAnswers) => &[Stage::KnownAnswers],
             Self::Arrange => &[Stage::Bound, Stage::Split],
@@ -329,6 +355,36 @@ impl Which {
                 DICE_RATIONAL,
                 DISPLACE,
                 MESH,
+            ],
+            Self::Stage(Stage::TessControl) => &[
+                GEN,
+                ITEMS,
+                COUNTS,
+                NUM,
+                TESS_LEVEL,
+                TESS_DIVISION,
+                TESS_STRIP,
+                TESS_TOPOLOGY,
+                TESS_CORNER,
+                TESS_EDGES,
+                TESS_LEVELS_OF,
+                TESS_CONTROL,
+            ],
+            Self::Stage(Stage::TessPlaces) => &[GEN, COUNTS, TESS_PLACES],
+            Self::Stage(Stage::TessEvaluate) => &[
+                GEN,
+                ITEMS,
+                COUNTS,
+                NUM,
+                BEZIER,
+                TESS_DIVISION,
+                TESS_STRIP,
+                TESS_TOPOLOGY,
+                TESS_CORNER,
+                TESS_SURFACE,
+                TESS_VERTEX,
+                TESS_EVALUATED,
+                TESS_EVALUATE,
             ],
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
@@ -473,6 +529,54 @@ pub(crate) fn prepared(
 pub(crate) fn compiled(device: &wgpu::Device, which: Which, source: &str) -> Result<Kernel, WgpuError> {
     let access: Vec<Access> = which.bindings().iter().map(|(_, access)| *access).collect();
     compile(device, which.name(), source, &access)
+}
+
+/// A step of the tessellator that callers may write themselves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// Which levels a patch has.
+    Control,
+    /// Where a vertex is.
+    Evaluation,
+}
+
+impl Step {
+    /// The kernel that it is a part of.
+    pub(crate) const fn kernel(self) -> Which {
+        match self {
+            Self::Control => Which::Stage(Stage::TessControl),
+            Self::Evaluation => Which::Stage(Stage::TessEvaluate),
+        }
+    }
+
+    /// The file that has it, and nothing else.
+    const fn file(self) -> File {
+        match self {
+            Self::Control => TESS_LEVELS_OF,
+            Self::Evaluation => TESS_EVALUATED,
+        }
+    }
+
+    /// What is to be in the place of the file.
+    const fn wanted(self) -> &'static str {
+        match self {
+            Self::Control => "fn levels_of(index: u32) -> TessLevels",
+            Self::Evaluation => "fn evaluated(index: u32, coordinates: vec3<u32>) -> TessVertex",
+        }
+    }
+}
+
+/// Compiles the kernel of a step with the caller's own WGSL in its place.
+pub(crate) fn with_own(device: &wgpu::Device, step: Step, own: &str) -> Result<Kernel, WgpuError> {
+    // A last line of the caller's may lack its end.
+    let edit = |name: &str, text: &str| {
+        if name == step.file().0 { format!("{own}\n") } else { text.to_owned() }
+    };
+    let source = source(step.kernel().files(), Some(&edit));
+    compiled(device, step.kernel(), &source).map_err(|error| match error {
+        WgpuError::Kernel { stage, reason } => WgpuError::Own { stage, wanted: step.wanted(), reason },
+        other => other,
+    })
 }
 
 /// All files after each other; [`NOTHING`] if the kernel's own is edited away.

@@ -120,6 +120,7 @@ fn entry_name(module: &Module, ty: Handle<Type>) -> String {
         Type { inner: TypeInner::Array { base, .. }, .. } => entry_name(module, *base),
         Type { name: Some(name), .. } => name.clone(),
         Type { inner: TypeInner::Scalar(scalar), .. } if scalar.kind == ScalarKind::Uint => "u32".to_owned(),
+        Type { inner: TypeInner::Scalar(scalar), .. } if scalar.kind == ScalarKind::Float => "f32".to_owned(),
         other => panic!("{other:?}"),
     }
 }

@@ -153,6 +153,42 @@ const ALLOWED: &[Allowed] = &[
         why: "the first run wraps around and is then the whole buffer; the others are empty",
     },
     Allowed {
+        file: "tess_places.wgsl",
+        line: "let run = (count + RUNS - 1u) / RUNS;",
+        operator: " - ",
+        why: "longer runs share out the same work",
+    },
+    Allowed {
+        file: "tess_places.wgsl",
+        line: "let run = (count + RUNS - 1u) / RUNS;",
+        operator: " / ",
+        why: "the first run then has all patches",
+    },
+    Allowed {
+        file: "tess_evaluate.wgsl",
+        line: "if lane == 0u {",
+        operator: " == ",
+        why: "all write the same",
+    },
+    Allowed {
+        file: "tess_evaluate.wgsl",
+        line: "if is_pn && lane == 0u {",
+        operator: " == ",
+        why: "all write the same",
+    },
+    Allowed {
+        file: "tess_evaluate.wgsl",
+        line: "if is_pn && lane == 0u {",
+        operator: " && ",
+        why: "all write the same, and only PN triangles read it",
+    },
+    Allowed {
+        file: "tess_evaluate.wgsl",
+        line: "return vec2<u32>(umin(piece * size, count), umin((piece + 1u) * size, count));",
+        operator: " + ",
+        why: "the first piece wraps around and is then the whole patch; the others are empty",
+    },
+    Allowed {
         file: "balance.wgsl",
         line: "let run = (limits.groups + RUNS - 1u) / RUNS;",
         operator: " - ",

@@ -2,9 +2,9 @@
 //! that have collapsed.
 
 use micropoly_core::abi::{
-    TESS_BEZIER, TESS_CLOCKWISE, TESS_COORDINATES, TESS_DISTANCE, TESS_GIVEN, TESS_ISOLINES, TESS_LINEAR,
-    TESS_ODD, TESS_PHONG, TESS_PN, TESS_POINTS, TESS_STADLBAUER, TESS_TRIANGLES, TessFrame, TessLevels,
-    TessPatch, TessRecord, TessTotals, TessVertex,
+    TESS_BEZIER, TESS_CLOCKWISE, TESS_CONSTANT, TESS_COORDINATES, TESS_DISTANCE, TESS_GIVEN, TESS_ISOLINES,
+    TESS_LENGTH, TESS_LINEAR, TESS_ODD, TESS_PHONG, TESS_PN, TESS_POINTS, TESS_STADLBAUER, TESS_TRIANGLES,
+    TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex,
 };
 use micropoly_core::kernel::tess_control::{control as control_one, record};
 use micropoly_core::kernel::tess_evaluate::corners;
@@ -15,6 +15,8 @@ use super::{Parts, empty, words};
 
 /// Patches of an input of places: more than a work-group has items.
 const MANY: u32 = 300;
+/// Or as many as it has.
+const FULL: u32 = 256;
 
 /// A number about as large as others of its kind, or a nasty one.
 fn coordinate(random: &mut fastrand::Rng) -> f32 {
@@ -55,7 +57,10 @@ fn levels(random: &mut fastrand::Rng) -> TessLevels {
     levels.inner.fill_with(|| if random.u32(0..20) == 0 { f32::NAN } else { level(random) });
     if random.u32(0..6) == 0 {
         levels = TessLevels { outer: [1.0; 4], inner: [1.0; 2] };
-        levels.outer[random.usize(0..4)] = level(random);
+        match random.usize(0..6) {
+            outer @ 0..4 => levels.outer[outer] = level(random),
+            inner => levels.inner[inner - 4] = level(random),
+        }
     }
     levels
 }
@@ -77,17 +82,17 @@ fn frame(random: &mut fastrand::Rng, patch_count: u32) -> TessFrame {
     let domain = random.u32(TESS_TRIANGLES..=TESS_ISOLINES);
     let [flat, bent] =
         if domain == TESS_TRIANGLES { [TESS_LINEAR, TESS_PN] } else { [TESS_LINEAR, TESS_BEZIER] };
-    let evaluation = [flat, bent, bent, TESS_PHONG, TESS_PHONG, TESS_COORDINATES][random.usize(0..6)];
+    let evaluation = [flat, bent, bent, bent, TESS_PHONG, TESS_COORDINATES][random.usize(0..6)];
     let has_heights = evaluation != TESS_BEZIER && random.bool();
     let mut frame = TessFrame {
         patch_count,
         domain,
         spacing: random.u32(0..=TESS_ODD),
-        control: random.u32(0..=TESS_DISTANCE),
+        control: [TESS_CONSTANT, TESS_LENGTH, TESS_LENGTH, TESS_DISTANCE][random.usize(0..4)],
         evaluation,
         columns: if has_heights { random.u32(1..9) } else { 0 },
         rows: if has_heights { random.u32(1..9) } else { 0 },
-        factor: [0.0, 1.0, 40.0, 1.0e6][random.usize(0..4)],
+        factor: [0.0, 1.0, 4.0, 12.0, 40.0, 1.0e6][random.usize(0..6)],
         scale: 2.0 * random.f32() - 1.0,
         phong: random.f32(),
         ..TessFrame::default()
@@ -95,10 +100,12 @@ fn frame(random: &mut fastrand::Rng, patch_count: u32) -> TessFrame {
     for (chance, flag) in [(2, TESS_STADLBAUER), (4, TESS_CLOCKWISE), (8, TESS_POINTS)] {
         frame.flags |= if random.u32(0..chance) == 0 { flag } else { 0 };
     }
-    if random.bool() {
+    if random.u32(0..3) == 0 {
         frame.control = TESS_GIVEN;
     }
-    frame.eye.fill_with(|| coordinate(random));
+    if random.u32(0..4) > 0 {
+        frame.eye.fill_with(|| coordinate(random)); // or it is where patches are that have collapsed
+    }
     TessFrame { outer: levels(random).outer, inner: levels(random).inner, ..frame }
 }
 
@@ -117,7 +124,7 @@ fn records(random: &mut fastrand::Rng, frame: &TessFrame) -> Vec<TessRecord> {
 }
 
 pub(super) fn places(random: &mut fastrand::Rng) -> Parts {
-    let count = random.u32(1..MANY);
+    let count = if random.u32(0..4) == 0 { FULL } else { random.u32(1..MANY) };
     let frame = frame(random, count);
     let records = records(random, &frame);
     let (vertices, primitives) = totals_of(&records);

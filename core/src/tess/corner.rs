@@ -6,6 +6,8 @@ use crate::num::{float, flush3, mul, sub};
 
 /// Where the normals of a patch begin among its points.
 const NORMALS: u32 = 4;
+/// A coordinate's unit.
+const STEP: f32 = 1.0 / TESS_UNIT as f32;
 
 /// The corners at which an outer edge begins and ends, on its way around the patch.
 #[inline(always)]
@@ -41,11 +43,10 @@ pub const fn is_on_edge(frame: &TessFrame, coordinates: [u32; 3], edge: u32) -> 
 #[inline(always)]
 #[must_use]
 pub const fn shares(coordinates: [u32; 3]) -> [f32; 3] {
-    let step = 1.0 / TESS_UNIT as f32;
     [
-        mul(float(coordinates[0] as i32), step),
-        mul(float(coordinates[1] as i32), step),
-        mul(float(coordinates[2] as i32), step),
+        mul(float(coordinates[0] as i32), STEP),
+        mul(float(coordinates[1] as i32), STEP),
+        mul(float(coordinates[2] as i32), STEP),
     ]
 }
 

@@ -14,7 +14,7 @@ pub struct Division {
     rule: Rule,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Rule {
     Direct3D {
         /// Share of the larger of the two whole levels between which this one is.
@@ -24,13 +24,8 @@ enum Rule {
         /// Lengths of segments at both levels.
         lengths: [u32; 2],
     },
+    #[default]
     Stadlbauer,
-}
-
-impl Default for Rule {
-    fn default() -> Self {
-        Self::Stadlbauer
-    }
 }
 
 impl Division {
@@ -39,7 +34,7 @@ impl Division {
     #[must_use]
     pub const fn new(word: u32) -> Self {
         let (fixed, odd) = (word & LEVEL_FIXED, (word & LEVEL_ODD > 0) as u32);
-        let half = (fixed + 1) / 2 + odd * TESS_HALF;
+        let half = fixed.div_ceil(2) + odd * TESS_HALF;
         let (floor, fraction) = (half / TESS_UNIT, half % TESS_UNIT);
         let halves = floor + (fraction > 0) as u32;
         let rule = if word & LEVEL_STADLBAUER > 0 {
@@ -136,12 +131,11 @@ pub const fn highest_bit(x: u32) -> u32 {
     bits - (bits >> 1)
 }
 
-/// `a / b` in units of 2⁻¹⁶, rounded; `a` ≤ `b` ≤ 2²³.
+/// `a / b` in units of 2⁻¹⁶, rounded; `a` < `b` ≤ 2²³.
 #[inline(always)]
 const fn quotient(a: u32, b: u32) -> u32 {
-    let whole = a / b;
-    let high = (a % b) << 8;
+    let high = a << 8;
     let low = (high % b) << 8;
     let rest = low % b;
-    (whole << 16) + ((high / b) << 8) + low / b + (2 * rest >= b) as u32
+    ((high / b) << 8) + low / b + (2 * rest >= b) as u32
 }

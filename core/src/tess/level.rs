@@ -14,6 +14,10 @@ use crate::num::{clamp, floor, mul, neg, round};
 const NEARLY_ONE: f32 = 1.0 + 0.5 / TESS_UNIT as f32;
 /// The smallest level above 1.
 const BARELY_MORE: f32 = 1.0 + 1.0 / TESS_UNIT as f32;
+/// The largest level of an odd number of segments.
+const MOST_OF_ODD: f32 = MAX_TESS_LEVEL - 1.0;
+/// Bits of what is larger than every number.
+const INFINITE: u32 = f32::INFINITY.to_bits();
 
 /// How many outer levels a domain has, and how many inner ones.
 #[inline(always)]
@@ -73,19 +77,25 @@ const fn is_dropped(domain: u32, levels: &TessLevels) -> bool {
     let mut k = 0;
     let mut dropped = false;
     while k < outer {
-        let is_drawn = levels.outer[k as usize] > 0.0;
-        dropped |= !is_drawn;
+        dropped |= !is_positive(levels.outer[k as usize]);
         k += 1;
     }
     dropped
 }
 
+/// Is a level above 0? Told by its bits: a device may take a denormal for 0, and need not know what is not a number.
+#[inline(always)]
+const fn is_positive(level: f32) -> bool {
+    level.to_bits().wrapping_sub(1) < INFINITE
+}
+
 /// A level in the range of a spacing, and not below `least`; what is not a number is the lower end.
 #[inline(always)]
 const fn clamped(spacing: u32, level: f32, least: f32) -> f32 {
+    let level = if is_positive(level) { level } else { 0.0 };
     match spacing {
         TESS_EVEN => clamp(level, 2.0, MAX_TESS_LEVEL),
-        TESS_ODD => clamp(level, least, MAX_TESS_LEVEL - 1.0),
+        TESS_ODD => clamp(level, least, MOST_OF_ODD),
         _ => clamp(level, least, MAX_TESS_LEVEL),
     }
 }

@@ -132,14 +132,14 @@ impl Strip {
     #[inline(always)]
     const fn regular_triangle(&self, index: u32) -> [u32; 3] {
         let (outside, inside) = (&self.outside, &self.inside);
-        let quad = (index + 1) / 2;
-        let is_second = index % 2 == 0;
+        let quad = index.div_ceil(2);
+        let is_second = index.is_multiple_of(2);
         let [a, b] = [outside.vertex(quad), outside.vertex(quad + 1)];
         if index + 1 == self.count {
             return [a, b, inside.end];
         }
         let d = inside.vertex(quad);
-        if quad <= (inside.length + 1) / 2 {
+        if quad <= inside.length.div_ceil(2) {
             if is_second { [a, b, d] } else { [a, d, inside.vertex(quad - 1)] }
         } else {
             let c = inside.vertex(quad - 1);
@@ -151,7 +151,7 @@ impl Strip {
     #[inline(always)]
     const fn row_triangle(&self, index: u32) -> [u32; 3] {
         let [a, b, c, d] = self.square(index / 2);
-        if index % 2 == 0 { [d, a, b] } else { [d, b, c] }
+        if index.is_multiple_of(2) { [d, a, b] } else { [d, b, c] }
     }
 
     /// All diagonals but the one in the middle run the same way.

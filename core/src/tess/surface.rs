@@ -11,6 +11,8 @@ use crate::abi::{
 use crate::num::{add, add3, cross3, dot3, flush, flush3, mul, neg, recip, rsqrt, scale3, sub};
 use crate::patch::bezier::{blend3, blend4, cubic, cubic_slope};
 
+const SIXTH: f32 = 1.0 / 6.0;
+
 /// A patch as it is evaluated: what all its points need.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TessSurface {
@@ -65,7 +67,7 @@ impl TessSurface {
         }
         let corners = add3(add3(self.corners[0], self.corners[1]), self.corners[2]);
         // The mean of the six, and half of its way from the mean of the corners.
-        self.centre = flush3(add3(scale3(sum, 0.25), scale3(corners, neg(1.0 / 6.0))));
+        self.centre = flush3(add3(scale3(sum, 0.25), scale3(corners, neg(SIXTH))));
     }
 
     /// A point and its normal.

@@ -216,7 +216,7 @@ impl Topology {
         }
         // Rings of a triangle are as far from its edges as from each other.
         let depth = (depth * TWO_THIRDS + HALF) >> 16;
-        Row { division, first, is_forward, side, depth, inset: (depth + 1) / 2, sides: 3 }
+        Row { division, first, is_forward, side, depth, inset: depth.div_ceil(2), sides: 3 }
     }
 
     /// The strip that has a triangle.
@@ -280,7 +280,7 @@ impl Topology {
         let near = self.line_side();
         let (outside, inside) = (self.run(self.rings, near), self.run(self.rings, near + 2));
         let place = Strip { first, count, ring, side, outside, inside, ..Strip::NONE };
-        place.row(self.is_whole(), near > 0 || self.line() % 2 == 0)
+        place.row(self.is_whole(), near > 0 || self.line().is_multiple_of(2))
     }
 
     /// The vertices of one side of a ring, both corners among them.
@@ -329,7 +329,7 @@ impl Topology {
     /// Is the last ring a point or a line?
     #[inline(always)]
     const fn ends_in_line(&self) -> bool {
-        self.least() % 2 == 0
+        self.least().is_multiple_of(2)
     }
 
     /// Is it this ring?
