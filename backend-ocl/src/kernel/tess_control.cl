@@ -4,7 +4,7 @@
 // The record of a patch with these levels.
 static TessRecord record_of(__constant TessFrame *frame, const TessLevels *levels) {
     TessRecord record;
-    convert_levels(frame, levels, record.levels);
+    convert(frame, levels, record.levels);
     const Topology topology = new_topology(frame, record.levels);
     record.vertices = vertex_count(&topology);
     record.primitives = (frame->flags & TESS_POINTS) != 0u ? 0u : primitive_count(&topology);

@@ -60,7 +60,7 @@ static uint level_word(__constant TessFrame *frame, uint spacing, float level) {
 
 // The levels of a patch as words, the outer ones first; all are 0 where the patch is to be dropped: an outer level is
 // not above 0, or not a number.
-static void convert_levels(__constant TessFrame *frame, const TessLevels *levels, uint *words) {
+static void convert(__constant TessFrame *frame, const TessLevels *levels, uint *words) {
     for (uint k = 0u; k < 6u; k++) {
         words[k] = 0u;
     }
