@@ -19,21 +19,21 @@ static bool is_line_count(uint domain, uint level) {
 }
 
 // Told by its bits: no option lets a compiler assume that those are a number's.
-static bool is_above_zero(float level) {
+static bool is_positive(float level) {
     return as_uint(level) - 1u < 0x7f800000u;
 }
 
 static bool is_dropped(uint domain, const TessLevels *levels) {
     bool dropped = false;
     for (uint k = 0u; k < level_counts(domain).x; k++) {
-        dropped = dropped || !is_above_zero(levels->outer[k]);
+        dropped = dropped || !is_positive(levels->outer[k]);
     }
     return dropped;
 }
 
 // A level in the range of a spacing, and not below `least`; what is not a number is the lower end.
 static float clamped(uint spacing, float level, float least) {
-    const float known = as_float(is_above_zero(level) ? as_uint(level) : 0u);
+    const float known = as_float(is_positive(level) ? as_uint(level) : 0u);
     if (spacing == TESS_EVEN) {
         return clamp(known, 2.0f, MAX_TESS_LEVEL);
     }
