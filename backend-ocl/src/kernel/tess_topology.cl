@@ -62,9 +62,6 @@ static Topology new_topology(__constant TessFrame *frame, const uint *levels) {
     topology.around = 0u;
     topology.border = 0u;
     topology.rings = 0u;
-    if (frame->domain == TESS_ISOLINES || levels[0] == 0u) {
-        return topology;
-    }
     for (uint side = 0u; side < topology.sides; side++) {
         topology.border += segments_of(topology.outer + side);
         topology.around += segments_of(along(&topology, side));
@@ -161,13 +158,10 @@ static Side first_side(const Topology *topology, uint ring) {
     return new_side(first, side_segments(topology, ring, 0u), ring, 0u);
 }
 
-// The side after a side.
+// The side after a side of the same ring; `next_side` in core goes on to the next ring, too.
 static Side next_side(const Topology *topology, Side side) {
-    const uint first = side.first + side.count, next = side.side + 1u;
-    if (next == topology->sides || is_line(topology, side.ring)) {
-        return first_side(topology, side.ring + 1u);
-    }
-    return new_side(first, side_segments(topology, side.ring, next), side.ring, next);
+    const uint next = side.side + 1u;
+    return new_side(side.first + side.count, side_segments(topology, side.ring, next), side.ring, next);
 }
 
 // The ring that has a vertex.
@@ -292,13 +286,9 @@ static Strip strip_between(const Topology *topology, uint ring, uint side, uint 
     return ring == 1u ? between(strip, topology->outer + side, along(topology, side)) : regular(strip);
 }
 
-// The strip after a strip.
+// The strip after a strip of the same ring; `next_strip` in core goes on to the next ring, too.
 static Strip next_strip(const Topology *topology, const Strip *strip) {
-    const uint first = strip->first + strip->count;
-    if (strip->side + 1u == topology->sides) {
-        return strip_between(topology, strip->ring + 1u, 0u, first);
-    }
-    return strip_between(topology, strip->ring, strip->side + 1u, first);
+    return strip_between(topology, strip->ring, strip->side + 1u, strip->first + strip->count);
 }
 
 // The ring that has a triangle between it and the one around it; the one behind the last ring for what is in the

@@ -56,7 +56,7 @@ static Texels texels(uint zero, float place, uint count) {
     const float at = sub(mul(within, number((int)count)), 0.5f);
     const int first = floor(at);
     // A place that rounding has moved to the very end is that of the last texel.
-    const uint before = first < 0 ? count - 1u : lesser_of((uint)first, count - 1u);
+    const uint last = count - 1u, before = first < 0 ? last : lesser_of((uint)first, last);
     const uint after = before + 1u;
     const Texels found = {before, after < count ? after : 0u, flush(sub(at, number(first)))};
     return found;
