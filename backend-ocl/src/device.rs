@@ -19,7 +19,7 @@ use crate::buffer::OclBuffer;
 use crate::chunk;
 use crate::error::OclError;
 use crate::list::{DeviceInfo, found, info};
-use crate::program::{GROUP, Kind, Which, build};
+use crate::program::{GROUP, Kind, Part, Unbuilt, Which};
 
 /// Work-groups that deal what one group of LOCAL has: an item an entry of its stack, or a draw.
 const DEAL_ROWS: u64 =
@@ -44,6 +44,49 @@ pub struct OpenOptions<'a> {
     pub skip_check: bool,
     /// Changes kernels before they are built. For tests.
     pub edit: Option<Edit<'a>>,
+    /// Stages whose kernels are built at once, with those of the same [`Part`]; the others are built when one of them is
+    /// first dispatched. Where there are none, and no step of the tessellator is the caller's own, those of a frame.
+    pub first: &'a [Stage],
+    /// The tessellator's control, in OpenCL C: the levels of a patch. It must define
+    ///
+    /// ```c
+    /// static TessLevels levels_of(__constant TessFrame *frame, __global const TessPatch *patches,
+    ///                             __global const TessLevels *levels, uint index)
+    /// ```
+    ///
+    /// `index` is that of the patch; `levels` has an entry a patch only with `TESS_GIVEN`. Where patches share an edge, it
+    /// must have the same level in all of them.
+    ///
+    /// The structs and constants are those of `micropoly_core::abi`. Floats are to be computed with the functions of
+    /// `kernel/num.cl` (`add`, `mul`, …), after `const uint zero = frame->zero;`: then the bits are the same on every device.
+    /// `levels_by_frame(frame, patches + index)` is what the frame asks for.
+    ///
+    /// With a step of the caller's own the tessellator is built as the device is opened; [`OclError::OwnStep`] if it does not
+    /// compile.
+    pub tess_control: Option<String>,
+    /// The tessellator's evaluation, in OpenCL C as [`OpenOptions::tess_control`]: a vertex of a patch. It must define
+    ///
+    /// ```c
+    /// static TessVertex evaluated(__constant TessFrame *frame, __global const TessPatch *patches,
+    ///                             __global const float *heights, uint index, uint3 coordinates)
+    /// ```
+    ///
+    /// `index` is that of the patch; `coordinates` are (u, v, w) in units of 2⁻¹⁶, on quadrilaterals and isolines w = 0.
+    /// `shares(frame->zero, coordinates)` has them as floats, `weights_of(frame, coordinates)` has the corners' shares, and
+    /// `height_at(frame, heights, place)` looks up a height.
+    pub tess_evaluate: Option<String>,
+}
+
+impl OpenOptions<'_> {
+    /// Is a part built at once?
+    fn is_first(&self, part: Part) -> bool {
+        let has_own_steps = self.tess_control.is_some() || self.tess_evaluate.is_some();
+        match part {
+            Part::Frame if self.first.is_empty() => !has_own_steps,
+            Part::Tessellator if has_own_steps => true,
+            _ => self.first.iter().any(|stage| Part::of(*stage) == part),
+        }
+    }
 }
 
 impl fmt::Debug for OpenOptions<'_> {
@@ -53,6 +96,9 @@ impl fmt::Debug for OpenOptions<'_> {
             .field("barrier", &self.barrier)
             .field("skip_check", &self.skip_check)
             .field("edit", &self.edit.is_some())
+            .field("first", &self.first)
+            .field("tess_control", &self.tess_control)
+            .field("tess_evaluate", &self.tess_evaluate)
             .finish()
     }
 }
@@ -61,8 +107,10 @@ impl fmt::Debug for OpenOptions<'_> {
 #[derive(Debug)]
 pub struct OclDevice {
     info: DeviceInfo,
-    /// As [`Which::ALL`].
-    kernels: Vec<Kernel>,
+    /// As [`Which::ALL`], those that are built.
+    kernels: [Option<Kernel>; Which::ALL.len()],
+    /// Parts whose kernels are not.
+    unbuilt: Vec<Unbuilt>,
     /// As [`chunk::own`]; kept from frame to frame, none before the first that needs it.
     own: [Option<OclBuffer>; 3],
     queue: CommandQueue,
@@ -90,8 +138,35 @@ impl OclDevice {
     fn start(device: &ClDevice, info: DeviceInfo, options: &OpenOptions<'_>) -> Result<Self, OclError> {
         let context = Context::from_device(device).map_err(OclError::driver("opening the device"))?;
         let queue = CommandQueue::create_default(&context, 0).map_err(OclError::driver("making a queue"))?;
-        let kernels = build(&context, &info.name, options)?;
-        Ok(Self { info, kernels, own: [const { None }; 3], queue, context, allocated: Arc::default() })
+        let mut started = Self {
+            info,
+            kernels: [const { None }; Which::ALL.len()],
+            unbuilt: Part::ALL.map(|part| Unbuilt::new(part, options)).into(),
+            own: [const { None }; 3],
+            queue,
+            context,
+            allocated: Arc::default(),
+        };
+        for part in Part::ALL.into_iter().filter(|part| options.is_first(*part)) {
+            started.build(part)?;
+        }
+        Ok(started)
+    }
+
+    /// Builds the kernels of a part, if they are not built.
+    fn build(&mut self, part: Part) -> Result<(), OclError> {
+        let Some(at) = self.unbuilt.iter().position(|unbuilt| unbuilt.part == part) else { return Ok(()) };
+        for (which, kernel) in self.unbuilt[at].build(&self.context, &self.info.name)? {
+            self.kernels[which.index()] = Some(kernel);
+        }
+        self.unbuilt.remove(at);
+        Ok(())
+    }
+
+    /// Makes sure that a stage can run. Any part that is built knows the known answers.
+    fn build_for(&mut self, stage: Stage) -> Result<(), OclError> {
+        let any = self.unbuilt.len() < Part::ALL.len();
+        if stage == Stage::KnownAnswers && any { Ok(()) } else { self.build(Part::of(stage)) }
     }
 
     fn check_answers(&mut self) -> Result<(), OclError> {
@@ -117,7 +192,9 @@ impl OclDevice {
         if grid.groups.contains(&0) {
             return Ok(()); // drivers may refuse to do nothing
         }
-        let kernel = &self.kernels[which.index()];
+        let Some(kernel) = &self.kernels[which.index()] else {
+            return Err(OclError::Bindings { stage: which.name() });
+        };
         let failed = OclError::driver(which.name());
         for (place, buffer) in (0..).zip(buffers) {
             // SAFETY: the kernel takes these buffers; those of a stage were checked against its bindings.
@@ -241,6 +318,11 @@ impl Grid {
             (Stage::Local, Items::Groups(count)) => Self::a_column_each(count, 1, buffers[4]),
             (Stage::Deal, Items::Groups(count)) => Self::a_column_each(count, DEAL_ROWS, buffers[1]),
             (Stage::Mesh, Items::Count(count)) => Self::a_column_each(count, 1, buffers[4]),
+            (Stage::TessControl, Items::Count(count)) => {
+                (u64::from(count) <= buffers[3].entries()).then(|| Self::of_items(count.into()))
+            }
+            (Stage::TessPlaces, _) => Some(Self::of_groups(1, 1)),
+            (Stage::TessEvaluate, Items::Count(pieces)) => Some(Self::of_groups(pieces.into(), 1)),
             _ => None,
         }
     }
@@ -320,6 +402,7 @@ impl Device for OclDevice {
 
     fn dispatch(&mut self, stage: Stage, items: Items, buffers: &[&OclBuffer]) -> Result<(), OclError> {
         check_bindings(stage, buffers)?;
+        self.build_for(stage)?;
         if let (Stage::Draw | Stage::SortLast, Items::Image(extent)) = (stage, items) {
             self.draw(&Extent { sort_last: stage == Stage::SortLast, ..extent }, buffers)?;
         } else {

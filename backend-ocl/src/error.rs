@@ -47,6 +47,15 @@ pub enum OclError {
         /// What the compiler said.
         log: String,
     },
+    /// The driver's compiler refused a caller's own step of the tessellator, or what is made of it.
+    OwnStep {
+        /// The device.
+        device: String,
+        /// The functions that the caller's sources must define.
+        defines: String,
+        /// What the compiler said.
+        log: String,
+    },
     /// The device does not compute as it must.
     WrongAnswer {
         /// The device.
@@ -109,6 +118,10 @@ impl fmt::Display for OclError {
             Self::Build { device, log } => write!(
                 f,
                 "the OpenCL compiler of {device} refused the kernels\n  help: update the driver; its report:\n{log}"
+            ),
+            Self::OwnStep { device, defines, log } => write!(
+                f,
+                "the OpenCL compiler of {device} refused the tessellator with your own source in it\n  help: it must define `{defines}`; the compiler's report:\n{log}"
             ),
             Self::WrongAnswer { device, mismatch } => write_wrong_answer(f, device, mismatch),
             Self::OutOfMemory { name, bytes, limit } => write!(

@@ -14,18 +14,77 @@ pub(crate) const GROUP: usize = 64;
 
 macro_rules! files {
     ($($name:literal)*) => {
-        /// Name and source of every kernel file, in the order in which they are put together.
-        pub const FILES: &[(&str, &str)] = &[$(($name, include_str!(concat!("kernel/", $name)))),*];
+        &[$(($name, include_str!(concat!("kernel/", $name)))),*]
     };
 }
 
-files! {
+/// Name and source of every kernel file of the stages of a frame, in the order in which they are put together.
+pub const FILES: &[(&str, &str)] = files! {
     "gen.cl" "num.cl" "counts.cl" "bezier.cl" "surface.cl" "border.cl" "net.cl" "gregory.cl" "rational.cl" "owner.cl"
     "half.cl" "instance.cl" "project.cl" "weber.cl" "take.cl" "flat.cl" "sides.cl" "bound.cl" "grids.cl"
     "dice.cl" "dice_gregory.cl" "dice_rational.cl" "dice_any.cl" "displace.cl" "shade.cl" "triangle.cl" "clip.cl"
     "blend.cl" "sample.cl" "near.cl" "general.cl" "arrange_draw.cl" "draw.cl" "sort_middle.cl" "tiles.cl" "sort_last.cl"
     "filter.cl" "mesh.cl" "flush.cl" "scan.cl" "mesh_places.cl" "split.cl" "local.cl" "balance.cl" "deal.cl"
     "known_answers.cl"
+};
+
+/// The same of the tessellator's stages.
+pub const TESS_FILES: &[(&str, &str)] = files! {
+    "gen.cl" "num.cl" "counts.cl" "bezier.cl" "tess_level.cl" "tess_division.cl" "tess_strip.cl" "tess_topology.cl"
+    "tess_corner.cl" "tess_edges.cl" "tess_levels.cl" "tess_control.cl" "tess_places.cl" "tess_surface.cl"
+    "tess_vertex.cl" "tess_evaluated.cl" "tess_evaluate.cl" "known_answers.cl"
+};
+
+/// The file whose place a caller's own levels take.
+const LEVELS_FILE: &str = "tess_levels.cl";
+/// The file whose place a caller's own evaluation takes.
+const EVALUATED_FILE: &str = "tess_evaluated.cl";
+
+/// What a caller's own control must define.
+const LEVELS_OF: &str = "static TessLevels levels_of(__constant TessFrame *frame, __global const TessPatch *patches, __global const TessLevels *levels, uint index)";
+/// What a caller's own evaluation must define.
+const EVALUATED: &str = "static TessVertex evaluated(__constant TessFrame *frame, __global const TessPatch *patches, __global const float *heights, uint index, uint3 coordinates)";
+
+/// Kernels that are built together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Those of the stages of a frame.
+    Frame,
+    /// The tessellator's.
+    Tessellator,
+}
+
+impl Part {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Frame, Self::Tessellator];
+
+    /// The one that has a stage. Known answers are in both.
+    #[must_use]
+    pub const fn of(stage: Stage) -> Self {
+        match stage {
+            Stage::TessControl | Stage::TessPlaces | Stage::TessEvaluate => Self::Tessellator,
+            _ => Self::Frame,
+        }
+    }
+
+    /// Name and source of its files, in the order in which they are put together.
+    #[must_use]
+    pub const fn files(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Frame => FILES,
+            Self::Tessellator => TESS_FILES,
+        }
+    }
+
+    /// Has it this kernel?
+    #[must_use]
+    pub fn has(self, which: Which) -> bool {
+        match which {
+            Which::Stage(Stage::KnownAnswers) => true,
+            Which::Stage(stage) => Self::of(stage) == self,
+            _ => self == Self::Frame,
+        }
+    }
 }
 
 /// The kernels: one a stage, and those into which the stages that draw are cut.
@@ -79,7 +138,7 @@ const fn write<T: Shared>(name: &'static str) -> Argument {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 25] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::Stage(Stage::Scan),
@@ -91,6 +150,9 @@ impl Which {
         Self::Stage(Stage::Filter),
         Self::Stage(Stage::MeshPlaces),
         Self::Stage(Stage::Mesh),
+        Self::Stage(Stage::TessControl),
+        Self::Stage(Stage::TessPlaces),
+        Self::Stage(Stage::TessEvaluate),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::ArrangeDraw,
@@ -124,6 +186,9 @@ impl Which {
             Self::Stage(Stage::Filter) => "stage_filter",
             Self::Stage(Stage::MeshPlaces) => "stage_mesh_places",
             Self::Stage(Stage::Mesh) => "stage_mesh",
+            Self::Stage(Stage::TessControl) => "stage_tess_control",
+            Self::Stage(Stage::TessPlaces) => "stage_tess_places",
+            Self::Stage(Stage::TessEvaluate) => "stage_tess_evaluate",
             Self::Stage(Stage::Flush) => "stage_flush",
             Self::Stage(Stage::KnownAnswers) => "stage_known_answers",
             Self::ArrangeDraw => "arrange_draw",
@@ -188,30 +253,67 @@ impl Which {
     }
 }
 
-/// Builds all kernels, in the order of [`Which::ALL`].
-pub(crate) fn build(
-    context: &Context,
-    device: &str,
-    options: &OpenOptions<'_>,
-) -> Result<Vec<Kernel>, OclError> {
-    let program =
-        Program::create_and_build_from_source(context, &source(options), &compiler_options(options))
-            .map_err(|log| OclError::Build { device: device.to_owned(), log })?;
-    Which::ALL
-        .iter()
-        .map(|which| Kernel::create(&program, which.name()))
-        .collect::<Result<_, _>>()
-        .map_err(OclError::driver("looking up the kernels"))
+/// A part that is yet to be built.
+#[derive(Debug)]
+pub(crate) struct Unbuilt {
+    pub(crate) part: Part,
+    source: String,
+    options: String,
+    /// What the caller's own steps in it must define.
+    own: Vec<&'static str>,
+}
+
+impl Unbuilt {
+    pub(crate) fn new(part: Part, options: &OpenOptions<'_>) -> Self {
+        let own = match part {
+            Part::Frame => Vec::new(),
+            Part::Tessellator => options.own_steps().map(|(_, defines, _)| defines).collect(),
+        };
+        Self { part, source: source(part, options), options: compiler_options(options), own }
+    }
+
+    /// Builds its kernels.
+    pub(crate) fn build(&self, context: &Context, device: &str) -> Result<Vec<(Which, Kernel)>, OclError> {
+        let program = Program::create_and_build_from_source(context, &self.source, &self.options)
+            .map_err(|log| self.refused(device.to_owned(), log))?;
+        let own = Which::ALL.into_iter().filter(|which| self.part.has(*which));
+        own.map(|which| Ok((which, Kernel::create(&program, which.name())?)))
+            .collect::<Result<_, _>>()
+            .map_err(OclError::driver("looking up the kernels"))
+    }
+
+    fn refused(&self, device: String, log: String) -> OclError {
+        if self.own.is_empty() {
+            OclError::Build { device, log }
+        } else {
+            OclError::OwnStep { device, defines: self.own.join(" and "), log }
+        }
+    }
+}
+
+impl OpenOptions<'_> {
+    /// The caller's own steps: the file whose place they take, what they must define, and their source.
+    fn own_steps(&self) -> impl Iterator<Item = (&'static str, &'static str, &str)> {
+        let levels = self.tess_control.as_deref().map(|source| (LEVELS_FILE, LEVELS_OF, source));
+        let evaluated = self.tess_evaluate.as_deref().map(|source| (EVALUATED_FILE, EVALUATED, source));
+        levels.into_iter().chain(evaluated)
+    }
 }
 
 /// All files, each after a line that names it in compiler reports.
-fn source(options: &OpenOptions<'_>) -> String {
-    let edited = |name, source: &str| match options.edit {
-        Some(edit) => edit(name, source),
-        None => source.to_owned(),
+fn source(part: Part, options: &OpenOptions<'_>) -> String {
+    let named = |&(name, source): &(&str, &str)| {
+        let own = options.own_steps().find(|(file, ..)| *file == name);
+        let (name, source) = own.map_or((name, source), |(file, _, source)| (own_name(file), source));
+        let edited = options.edit.map_or_else(|| source.to_owned(), |edit| edit(name, source));
+        format!("#line 1 \"{name}\"\n{edited}\n")
     };
-    let named = |&(name, source)| format!("#line 1 \"{name}\"\n{}\n", edited(name, source));
-    FILES.iter().map(named).collect::<String>().replace('\0', " ")
+    part.files().iter().map(named).collect::<String>().replace('\0', " ")
+}
+
+/// What compiler reports call the caller's own step in the place of a file.
+fn own_name(file: &str) -> &'static str {
+    if file == LEVELS_FILE { "your tess_control" } else { "your tess_evaluate" }
 }
 
 fn compiler_options(options: &OpenOptions<'_>) -> String {

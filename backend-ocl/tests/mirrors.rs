@@ -1,7 +1,7 @@
 //! The kernels as a device's compiler understands them: their arguments are the stages' bindings, their structs
 //! lie as core's. Their texts call nothing whose bits a device may choose.
 
-use micropoly_backend_ocl::{Argument, FILES, OclDevice, OpenOptions, Which, devices};
+use micropoly_backend_ocl::{Argument, OclDevice, OpenOptions, Part, Which, devices};
 use micropoly_conformance::mirrors::{assert_mirrors, first_word};
 use micropoly_core::abi::{Frame, LAYOUTS, Question, Sample, Shared};
 use micropoly_core::backend::Device;
@@ -50,6 +50,14 @@ const FORBIDDEN: [&str; 32] = [
     "radians",
 ];
 
+/// Name and source of every kernel file, once.
+fn files() -> Vec<(&'static str, &'static str)> {
+    let mut files = Part::ALL.map(Part::files).concat();
+    files.sort_unstable();
+    files.dedup();
+    files
+}
+
 /// Words that a call starts with, `name(`.
 fn calls(source: &str) -> impl Iterator<Item = &str> {
     source.lines().flat_map(|line| {
@@ -63,7 +71,7 @@ fn calls(source: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn no_inexact_function_is_called() {
-    for (name, source) in FILES {
+    for (name, source) in files() {
         for call in calls(source) {
             let loose = ["native_", "half_", "convert_", "vstore_half"].iter().any(|p| call.starts_with(p));
             assert!(!loose && !FORBIDDEN.contains(&call), "{name} calls {call}");
@@ -91,9 +99,9 @@ fn expected(argument: Argument) -> Compiled {
             return (name.to_owned(), "uint".to_owned(), CL_KERNEL_ARG_ADDRESS_PRIVATE, false);
         }
     };
-    let kind = format!("{}*", layout.name.replace("u32", "uint"));
+    let kind = format!("{}*", layout.name.replace("u32", "uint").replace("f32", "float"));
     let (space, constant) = match (access, name) {
-        (Access::Read, "frame") => (CL_KERNEL_ARG_ADDRESS_CONSTANT, true),
+        (Access::Read, "frame" | "tess_frame") => (CL_KERNEL_ARG_ADDRESS_CONSTANT, true),
         (Access::Read, _) => (CL_KERNEL_ARG_ADDRESS_GLOBAL, true),
         (Access::Write, _) => (CL_KERNEL_ARG_ADDRESS_GLOBAL, false),
     };
@@ -102,19 +110,21 @@ fn expected(argument: Argument) -> Compiled {
 
 #[test]
 fn arguments_are_the_bindings() {
-    let source: String = FILES.iter().map(|(_, source)| *source).collect();
     // Drivers are started by the backend, which lets one thread at a time do so.
     devices().expect("this test needs an OpenCL device");
     for id in get_all_devices(CL_DEVICE_TYPE_ALL).expect("devices") {
         let context = Context::from_device(&ClDevice::new(id)).expect("a context");
         let options = "-cl-std=CL1.2 -D GROUP=64u -cl-kernel-arg-info";
-        let program = Program::create_and_build_from_source(&context, &source, options).expect("builds");
-        for which in Which::ALL {
-            let kernel = Kernel::create(&program, which.name()).expect("a kernel of that name");
-            let found: Vec<_> =
-                (0..kernel.num_args().expect("known")).map(|index| argument(&kernel, index)).collect();
-            let wanted: Vec<_> = which.arguments().into_iter().map(expected).collect();
-            assert_eq!(found, wanted, "{}", which.name());
+        for part in Part::ALL {
+            let source: String = part.files().iter().map(|(_, source)| *source).collect();
+            let program = Program::create_and_build_from_source(&context, &source, options).expect("builds");
+            for which in Which::ALL.into_iter().filter(|which| part.has(*which)) {
+                let kernel = Kernel::create(&program, which.name()).expect("a kernel of that name");
+                let found: Vec<_> =
+                    (0..kernel.num_args().expect("known")).map(|index| argument(&kernel, index)).collect();
+                let wanted: Vec<_> = which.arguments().into_iter().map(expected).collect();
+                assert_eq!(found, wanted, "{}", which.name());
+            }
         }
     }
 }
@@ -184,7 +194,9 @@ fn structs_lie_as_core_lays_them() {
         "known_answers.cl" => probe(),
         _ => source.to_owned(),
     };
-    let options = OpenOptions { edit: Some(&edit), skip_check: true, ..OpenOptions::default() };
+    let first = [Stage::TessControl]; // known answers are in every part
+    let options =
+        OpenOptions { edit: Some(&edit), skip_check: true, first: &first, ..OpenOptions::default() };
     for index in 0..devices().expect("this test needs an OpenCL device").len() {
         let mut device = OclDevice::open(index, &options).unwrap_or_else(|error| panic!("{error}"));
         let wanted = probed();
@@ -204,5 +216,5 @@ fn files_mirror_core() {
         let head = line.strip_prefix("static ")?.split_once('(')?.0;
         Some(first_word(head.rsplit_once(' ')?.1.trim_start_matches('*').trim_start_matches("num_")))
     };
-    assert_mirrors(FILES, "cl", name_of);
+    assert_mirrors(&files(), "cl", name_of);
 }

@@ -16,3 +16,15 @@ static uint greater_of(uint a, uint b) {
 static uint run_start(uint lane, uint count) {
     return lesser_of(lane * ((count + GROUP - 1u) / GROUP), count);
 }
+
+// Up to four sums at once.
+typedef uint4 Counts;
+
+// Sum of the first `count` entries.
+static Counts sum(__local const Counts *all, uint count) {
+    Counts total = (Counts)(0u);
+    for (uint index = 0u; index < count; index++) {
+        total += all[index];
+    }
+    return total;
+}

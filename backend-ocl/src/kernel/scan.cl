@@ -2,8 +2,6 @@
 // an unbroken run of the batch, so outputs keep their order.
 
 // Surfaces split, drawn, and drawn because they may not be split; micropolygons of those that are drawn.
-typedef uint4 Counts;
-
 static Counts counted(Verdict verdict) {
     const bool limited = verdict.code == DRAW_LIMITED;
     const bool drawn = verdict.code == DRAW || limited;
@@ -27,15 +25,6 @@ static Control commit(Control control, Counts all, uint stack_room, uint draw_ro
     control.micropolygons += all.w;
     control.overflow = excess_stack > excess_draws ? excess_stack : excess_draws;
     return control;
-}
-
-// Sum of the first `count` entries.
-static Counts sum(__local const Counts *all, uint count) {
-    Counts total = (Counts)(0u);
-    for (uint index = 0u; index < count; index++) {
-        total += all[index];
-    }
-    return total;
 }
 
 static void scan(__global const Verdict *verdicts, __global Slot *slots, uint from, uint to, Counts before) {

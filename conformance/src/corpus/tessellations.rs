@@ -3,8 +3,8 @@
 
 use micropoly_core::abi::{
     TESS_BEZIER, TESS_CLOCKWISE, TESS_CONSTANT, TESS_COORDINATES, TESS_DISTANCE, TESS_GIVEN, TESS_ISOLINES,
-    TESS_LENGTH, TESS_LINEAR, TESS_ODD, TESS_PHONG, TESS_PN, TESS_POINTS, TESS_STADLBAUER, TESS_TRIANGLES,
-    TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex,
+    TESS_LENGTH, TESS_LINEAR, TESS_ODD, TESS_PHONG, TESS_PN, TESS_POINTS, TESS_QUADS, TESS_STADLBAUER,
+    TESS_TRIANGLES, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex,
 };
 use micropoly_core::kernel::tess_control::{control as control_one, record};
 use micropoly_core::kernel::tess_evaluate::corners;
@@ -111,7 +111,13 @@ fn frame(random: &mut fastrand::Rng, patch_count: u32) -> TessFrame {
 
 pub(super) fn control(random: &mut fastrand::Rng) -> Parts {
     let count = random.u32(1..200);
-    let frame = frame(random, count);
+    let mut frame = frame(random, count);
+    if random.u32(0..3) == 0 {
+        // Edges that are curves, neither very short nor very long.
+        frame =
+            TessFrame { domain: random.u32(TESS_QUADS..=TESS_ISOLINES), evaluation: TESS_BEZIER, ..frame };
+        frame = TessFrame { control: TESS_LENGTH, factor: 5.0, eye: [1.0, 2.0, 3.0], columns: 0, ..frame };
+    }
     let patches: Vec<TessPatch> = (0..count).map(|_| patch(random)).collect();
     let own: Vec<TessLevels> = (0..count).map(|_| levels(random)).collect();
     let records = empty::<TessRecord>(count as usize);
