@@ -6,10 +6,10 @@
 mod gpu;
 
 use std::error::Error;
-use std::f64::consts::FRAC_PI_4;
 
 use bytemuck::cast_slice;
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, DVec4};
+use micropoly::Camera;
 use micropoly::backend_wgpu::{WgpuBuffer, WgpuDevice, WgpuError, wgpu};
 use micropoly::core::abi::{Shared, TESS_LENGTH, TESS_ODD, TESS_PN, TessFrame, TessVertex};
 use micropoly::core::tess::stream::{Chunk, TessInput, TessPlan};
@@ -63,6 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (low, high) = source.bounds();
     let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
     let eye = middle + DVec3::new(0.4, 0.3, 1.0).normalize() * radius * 3.0;
+    let camera = Camera::look_at(eye, middle, DVec3::Y, 45.0, radius * 0.01).ok_or("the mesh is nowhere")?;
     // The program's own device, as it has one for its window.
     let adapter = block_on(wgpu::Instance::default().request_adapter(&Default::default()))?;
     let (device, queue) = block_on(adapter.request_device(&Default::default()))?;
@@ -73,20 +74,25 @@ fn main() -> Result<(), Box<dyn Error>> {
         evaluation: TESS_PN,
         spacing: TESS_ODD,
         eye: eye.as_vec3().to_array(),
-        factor: (0.5 * f64::from(SIZE) / (FRAC_PI_4 * 0.5).tan() / PIXELS) as f32,
+        factor: (camera.focal(SIZE) / PIXELS) as f32,
         ..TessFrame::default()
     };
     let input = TessInput { frame, patches: &source.patches, levels: &[], heights: &[] };
     let plan = TessPlan::new(&input, MEMORY)?;
     let buffers = plan.prepare(&mut micropoly, &input)?;
-    let to_clip = DMat4::perspective_infinite_reverse_rh(FRAC_PI_4, 1.0, radius * 0.01)
-        * DMat4::look_at_rh(eye, middle, DVec3::Y);
+    let to_clip = projection(&camera) * DMat4::from(camera.view);
     let painter = Painter::new(&device, &queue, to_clip);
     let counts = plan.run(&mut micropoly, &buffers, |micropoly, chunk| painter.draw(micropoly, chunk))?;
     println!("{} triangles in {} chunks on {}", counts.primitives, counts.chunks, micropoly.name());
     let commands = device.create_command_encoder(&Default::default());
     fetched(&device, &queue, commands, &painter.picture)?.save_png(output.as_ref())?;
     Ok(())
+}
+
+/// From the space of the eye to that of the picture; nearer depths are larger, down to 0 at infinity.
+fn projection(camera: &Camera) -> DMat4 {
+    let scale = camera.focal(SIZE) / (0.5 * f64::from(SIZE));
+    DMat4::from_cols(DVec4::X * scale, DVec4::Y * scale, -DVec4::W, DVec4::Z * camera.near)
 }
 
 /// Draws chunks, one over the other.

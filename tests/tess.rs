@@ -95,8 +95,8 @@ fn bezier_patches_that_share_edges_stay_closed() {
     // A ring of four patches about an axis, one of them the other way round, with control points that neighbours share.
     let place = |i: usize, j: usize| {
         let turn = TAU * i as f64 / 12.0;
-        let radius = 1.0 + 0.3 * (j as f64).sin();
-        [(radius * turn.cos()) as f32, (radius * turn.sin()) as f32, j as f32 * 0.4]
+        let radius = 1.0 + 0.3 * libm::sin(j as f64);
+        [(radius * libm::cos(turn)) as f32, (radius * libm::sin(turn)) as f32, j as f32 * 0.4]
     };
     let patches: Vec<BezierPatch> = (0..4)
         .map(|k| {

@@ -6,7 +6,7 @@ use micropoly::Image;
 use micropoly::backend_wgpu::wgpu;
 
 /// What is nearer has a larger depth.
-pub fn depth_test() -> wgpu::DepthStencilState {
+pub(crate) fn depth_test() -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: wgpu::TextureFormat::Depth32Float,
         depth_write_enabled: Some(true),
@@ -17,7 +17,11 @@ pub fn depth_test() -> wgpu::DepthStencilState {
 }
 
 /// A picture or a depth buffer that can be drawn to and fetched.
-pub fn texture(device: &wgpu::Device, size: wgpu::Extent3d, format: wgpu::TextureFormat) -> wgpu::Texture {
+pub(crate) fn texture(
+    device: &wgpu::Device,
+    size: wgpu::Extent3d,
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size,
@@ -31,7 +35,7 @@ pub fn texture(device: &wgpu::Device, size: wgpu::Extent3d, format: wgpu::Textur
 }
 
 /// Runs the commands and fetches the picture.
-pub fn fetched(
+pub(crate) fn fetched(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     mut commands: wgpu::CommandEncoder,

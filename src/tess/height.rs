@@ -32,8 +32,8 @@ impl HeightMap {
             }
             _ => return Err(wrong("it has neither a channel Y nor R, G and B, so that it has no heights")),
         };
-        let is_high = |value: &f64| !(value.abs() <= f64::from(MOST_HEIGHT));
-        if values.is_empty() || values.iter().any(is_high) {
+        let is_possible = |value: &f64| value.abs() <= f64::from(MOST_HEIGHT);
+        if values.is_empty() || !values.iter().all(is_possible) {
             return Err(wrong("one of its heights is no number, or too large"));
         }
         let (Ok(columns), Ok(rows)) = (u32::try_from(picture.width), u32::try_from(picture.height)) else {

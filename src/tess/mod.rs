@@ -206,7 +206,8 @@ fn check_heights(source: &TessSource, scale: f32) -> Result<()> {
             "a height map needs texture coordinates (`vt`), which the mesh has not, or not at all corners";
         return Err(Error::scene(problem, "add them to the mesh, or leave the height map out"));
     }
-    if !(scale.abs() <= 1.0e6) {
+    let is_possible = scale.abs() <= 1.0e6;
+    if !is_possible {
         return Err(Error::scene(
             "heights are scaled by too much",
             "choose a scale from -1000000 to 1000000",
