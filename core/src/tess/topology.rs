@@ -61,9 +61,6 @@ impl Topology {
             border: 0,
             rings: 0,
         };
-        if frame.domain == TESS_ISOLINES || levels[0] == 0 {
-            return topology;
-        }
         if topology.sides == 3 {
             topology.inner[1] = topology.inner[0];
         }
