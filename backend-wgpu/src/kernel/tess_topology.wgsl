@@ -49,10 +49,6 @@ fn measure() {
     topology.sides = select(3u, 4u, tess_frame.domain == TESS_QUADS);
     topology.around = 0u;
     topology.border = 0u;
-    topology.rings = 0u;
-    if is_isolines() || is_dropped() {
-        return;
-    }
     for (var side = 0u; side < topology.sides; side++) {
         topology.border += outer_segments(side);
         topology.around += along_segments(side);
