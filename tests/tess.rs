@@ -129,7 +129,7 @@ fn memory_and_threads_make_no_difference() {
     };
     let wanted = done(&source, &one);
     assert_eq!(wanted.counts.chunks, 1);
-    for (memory, threads) in [(600 << 10, 1), (1 << 20, 2), (3 << 19, 5)] {
+    for (memory, threads) in [(600 << 10, 1), (700 << 10, 2), (1 << 20, 5)] {
         let found = done(&source, &TessOptions { memory, threads, ..one.clone() });
         assert!(found.counts.chunks > 1, "{memory}");
         assert_eq!(found.mesh, wanted.mesh, "{memory} bytes, {threads} threads");
