@@ -1,7 +1,7 @@
 //! The tessellation stage that WebGPU has not got: a mesh is divided on the GPU, its vertices are moved by a snippet of WGSL, and
 //! an ordinary render pipeline draws them there, chunk by chunk. Only counts come back.
 //!
-//!     cargo run --release --features wgpu --example tess_on_gpu -- mesh.obj out.png
+//!     cargo run --release --features wgpu --example tess_on_gpu -- scenes/ball.obj out.png
 
 mod gpu;
 
