@@ -153,7 +153,7 @@ shared_constants! {
     const TESS_CLOCKWISE: u32 = 2;
     /// Of [`TessFrame::flags`]: vertices are points, and there are no triangles or lines.
     const TESS_POINTS: u32 = 4;
-    /// [`TessFrame::control`]: all patches have the levels of [`TessFrame::levels`].
+    /// [`TessFrame::control`]: all patches have the levels [`TessFrame::outer`] and [`TessFrame::inner`].
     const TESS_CONSTANT: u32 = 0;
     /// [`TessFrame::control`]: the level of an edge is [`TessFrame::factor`] times its length over its distance from the eye.
     const TESS_LENGTH: u32 = 1;

@@ -50,7 +50,7 @@ void stage_tess_evaluate(__constant TessFrame *tess_frame, __global const TessPa
     const uint2 vertices = span(piece - record.first_piece, PIECE_VERTICES, record.vertices);
     for (uint at = vertices.x + lane; at < vertices.y; at += GROUP) {
         const Side side = side_of(&topology, at);
-        const uint3 coordinates = coordinates_of(&topology, side, at - side.first);
+        const uint3 coordinates = coordinates_of(row_of(&topology, side), at - side.first);
         tess_vertices[record.first_vertex + at] = evaluated(tess_frame, tess_patches, heights, index, coordinates);
     }
     const uint2 primitives = span(piece - record.first_piece, PIECE_PRIMITIVES, record.primitives);

@@ -189,52 +189,53 @@ static Side side_of(const Topology *topology, uint index) {
     return found;
 }
 
-// Which point of its division a vertex is: sides 1 and 2 of quads, and 1 of triangles, run in the direction of
-// their coordinate.
-static uint turned(const Topology *topology, Side side, uint index) {
-    const bool is_forward = side.side == 1u || (side.side == 2u && topology->sides == 4u);
-    const Division *division = side.ring == 0u ? topology->outer + side.side : along(topology, side.side);
-    return is_forward ? side.ring + index : segments_of(division) - side.ring - index;
-}
+// Where the vertices of a side are: on a line, along a division.
+typedef struct {
+    const Division *division;
+    // Point of the division at which the first vertex is.
+    uint first;
+    bool is_forward;
+    uint side;
+    // How far the line is from the edge of the domain that has this side.
+    uint depth;
+    // How much earlier the line begins and ends, on a triangle.
+    uint inset;
+    uint sides;
+} Row;
 
-// Coordinates of a point at `place` along a side and `depth` away from it.
-static uint3 on_side(const Topology *topology, uint side, uint place, uint depth) {
-    if (topology->sides == 3u) {
-        const uint rest = TESS_UNIT - place - depth;
-        const uint3 others = side == 1u ? (uint3)(place, depth, rest) : (uint3)(place, rest, depth);
-        return side == 0u ? (uint3)(depth, place, rest) : others;
-    }
-    const uint far = side < 2u ? depth : TESS_UNIT - depth;
-    return side % 2u == 0u ? (uint3)(far, place, 0u) : (uint3)(place, far, 0u);
-}
-
-// The same on the outermost ring.
-static uint3 border_coordinates(const Topology *topology, Side side, uint index) {
-    if (is_whole(topology) && topology->sides == 4u) {
-        // A square that is not divided begins at (0, 0), one side on.
-        return on_side(topology, (side.side + 1u) % 4u, side.side < 2u ? 0u : TESS_UNIT, 0u);
-    }
-    const uint place = place_of(topology->outer + side.side, turned(topology, side, index));
-    return on_side(topology, side.side, place, 0u);
-}
-
-// Coordinates of a vertex of a side, counted from its first one, in units of 2^-16; they add up to 1 on triangles, and
-// have no third one on quads and isolines.
-static uint3 coordinates_of(const Topology *topology, Side side, uint index) {
+static Row row_of(const Topology *topology, Side of_vertex) {
+    const uint ring = of_vertex.ring;
     if (topology->domain == TESS_ISOLINES) {
-        return (uint3)(place_of(topology->outer + 1, index), place_of(topology->outer, side.ring), 0u);
+        const Row row = {topology->outer + 1, 0u, true, 1u, place_of(topology->outer, ring), 0u, 4u};
+        return row;
     }
-    if (side.ring == 0u) {
-        return border_coordinates(topology, side, index);
+    // A square that is not divided begins at (0, 0), one side on.
+    const bool is_square = is_whole(topology) && topology->sides == 4u;
+    const uint side = is_square ? (of_vertex.side + 1u) % 4u : of_vertex.side;
+    const Division *division = ring == 0u ? topology->outer + side : along(topology, side);
+    // Sides 1 and 2 of quads, and 1 of triangles, run in the direction of their coordinate.
+    const bool is_forward = side == 1u || (side == 2u && topology->sides == 4u);
+    const uint first = is_forward ? ring : segments_of(division) - ring;
+    const uint depth = ring == 0u ? 0u : place_of(along(topology, side + 1u), ring);
+    // Rings of a triangle are as far from its edges as from each other.
+    const uint less = topology->sides == 3u ? (depth * TWO_THIRDS + TESS_HALF) >> 16 : depth;
+    const uint inset = topology->sides == 3u ? (less + 1u) / 2u : 0u;
+    const Row row = {division, first, is_forward, side, less, inset, topology->sides};
+    return row;
+}
+
+// Coordinates of a vertex, counted from the first of the side, in units of 2^-16; they add up to 1 on triangles, and there is
+// no third one on quadrilaterals and isolines.
+static uint3 coordinates_of(Row row, uint index) {
+    const uint point = row.is_forward ? row.first + index : row.first - index;
+    const uint place = place_of(row.division, point) - row.inset, depth = row.depth;
+    if (row.sides == 3u) {
+        const uint rest = TESS_UNIT - place - depth;
+        const uint3 others = row.side == 1u ? (uint3)(place, depth, rest) : (uint3)(place, rest, depth);
+        return row.side == 0u ? (uint3)(depth, place, rest) : others;
     }
-    const uint place = place_of(along(topology, side.side), turned(topology, side, index));
-    const uint depth = place_of(along(topology, side.side + 1u), side.ring);
-    if (topology->sides == 3u) {
-        // Rings of a triangle are as far from its edges as from each other.
-        const uint less = (depth * TWO_THIRDS + TESS_HALF) >> 16;
-        return on_side(topology, side.side, place - (less + 1u) / 2u, less);
-    }
-    return on_side(topology, side.side, place, depth);
+    const uint far = row.side < 2u ? depth : TESS_UNIT - depth;
+    return row.side % 2u == 0u ? (uint3)(far, place, 0u) : (uint3)(place, far, 0u);
 }
 
 // A ring of two sides that lie on each other, and two that are its ends.

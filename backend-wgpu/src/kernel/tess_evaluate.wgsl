@@ -83,7 +83,7 @@ fn corners() -> u32 {
 
 fn put_vertex(index: u32, item: u32) {
     let side = side_of(item);
-    let coordinates = coordinates_of(side, item - side.first);
+    let coordinates = coordinates_of(row_of(side), item - side.first);
     tess_vertices[records[index].first_vertex + item] = evaluated(index, coordinates);
 }
 

@@ -34,6 +34,21 @@ struct Side {
     side: u32,
 }
 
+// Where the vertices of a side are: on a line, along a division.
+struct Row {
+    // Which of the divisions.
+    line: u32,
+    // Point of the division at which the first vertex is.
+    first: u32,
+    is_forward: bool,
+    side: u32,
+    // How far the line is from the edge of the domain that has this side.
+    depth: u32,
+    // How much earlier the line begins and ends, on a triangle.
+    inset: u32,
+    sides: u32,
+}
+
 // Which converted level divides line `number` of six: a triangle has the last one twice.
 fn level_of(number: u32) -> u32 {
     return select(number, 4u, number == 5u && tess_frame.domain == TESS_TRIANGLES);
@@ -113,54 +128,45 @@ fn side_of(vertex: u32) -> Side {
     return found;
 }
 
-// Coordinates of a vertex of a side, counted from its first one, in units of 2^-16; they add up to 1 on triangles, and have
-// no third one on quads and isolines.
-fn coordinates_of(of_vertex: Side, index: u32) -> vec3<u32> {
-    let side = of_vertex.side;
+// Where the vertices of a side are.
+fn row_of(of_vertex: Side) -> Row {
     let ring = of_vertex.ring;
     if is_isolines() {
-        return vec3<u32>(place(topology.lines[1], index), place(topology.lines[0], ring), 0u);
+        return Row(1u, 0u, true, 1u, place(topology.lines[0], ring), 0u, 4u);
     }
-    if ring == 0u {
-        if is_whole() && topology.sides == 4u {
-            // A square that is not divided begins at (0, 0), one side on.
-            return on_side((side + 1u) % 4u, select(TESS_UNIT, 0u, side < 2u), 0u);
-        }
-        return on_side(side, place(topology.lines[side], turned(of_vertex, index)), 0u);
+    // A square that is not divided begins at (0, 0), one side on.
+    let side = select(of_vertex.side, (of_vertex.side + 1u) % 4u, is_whole() && topology.sides == 4u);
+    let line = select(along(side), side, ring == 0u);
+    // Sides 1 and 2 of quads, and 1 of triangles, run in the direction of their coordinate.
+    let is_forward = side == 1u || (side == 2u && topology.sides == 4u);
+    let first = select(segments_of(topology.lines[line]) - ring, ring, is_forward);
+    var depth = 0u;
+    if ring > 0u {
+        depth = place(topology.lines[along(side + 1u)], ring);
     }
-    let at = place(topology.lines[along(side)], turned(of_vertex, index));
-    let depth = place(topology.lines[along(side + 1u)], ring);
-    if topology.sides == 3u {
-        // Rings of a triangle are as far from its edges as from each other.
-        let nearer = (depth * TWO_THIRDS + TESS_HALF) >> 16u;
-        return on_side(side, at - (nearer + 1u) / 2u, nearer);
+    if topology.sides == 4u {
+        return Row(line, first, is_forward, side, depth, 0u, 4u);
     }
-    return on_side(side, at, depth);
+    // Rings of a triangle are as far from its edges as from each other.
+    depth = (depth * TWO_THIRDS + TESS_HALF) >> 16u;
+    return Row(line, first, is_forward, side, depth, (depth + 1u) / 2u, 3u);
 }
 
-// Which point of its division a vertex is: sides 1 and 2 of quads, and 1 of triangles, run in the direction of their
-// coordinate.
-fn turned(of_vertex: Side, index: u32) -> u32 {
-    let side = of_vertex.side;
-    let ring = of_vertex.ring;
-    if side == 1u || (side == 2u && topology.sides == 4u) {
-        return ring + index;
-    }
-    let all = segments_of(topology.lines[select(along(side), side, ring == 0u)]);
-    return all - ring - index;
-}
-
-// Coordinates of a point at `at` along a side and `depth` away from it.
-fn on_side(side: u32, at: u32, depth: u32) -> vec3<u32> {
-    if topology.sides == 3u {
+// Coordinates of a vertex, counted from the first of the side, in units of 2^-16; they add up to 1 on triangles, and there is no
+// third one on quadrilaterals and isolines.
+fn coordinates_of(row: Row, index: u32) -> vec3<u32> {
+    let point = select(row.first - index, row.first + index, row.is_forward);
+    let at = place(topology.lines[row.line], point) - row.inset;
+    let depth = row.depth;
+    if row.sides == 3u {
         let rest = TESS_UNIT - at - depth;
-        switch side {
+        switch row.side {
             case 0u: { return vec3<u32>(depth, at, rest); }
             case 1u: { return vec3<u32>(at, depth, rest); }
             default: { return vec3<u32>(at, rest, depth); }
         }
     }
-    switch side {
+    switch row.side {
         case 0u: { return vec3<u32>(depth, at, 0u); }
         case 1u: { return vec3<u32>(at, depth, 0u); }
         case 2u: { return vec3<u32>(TESS_UNIT - depth, at, 0u); }

@@ -199,8 +199,9 @@ impl TessPlan {
         while first < self.frame.patch_count {
             let chunk = place(device, [frame, records, totals], first, buffers.rooms)?;
             if chunk.end == first {
-                let largest = self.most();
-                return Err(PlanError::Budget { have: bytes(largest), needed: bytes(largest) + 1 }.into());
+                let (buffer, bytes) = ("tess_vertices", bytes(self.most()));
+                let limit = device.max_buffer_bytes(TessVertex::LAYOUT);
+                return Err(PlanError::TooLarge { buffer, bytes, limit }.into());
             }
             if chunk.pieces > 0 {
                 let all = [frame, patches, heights, records, totals, vertices, indices];
@@ -275,8 +276,11 @@ fn check(input: &TessInput<'_>) -> Result<(), PlanError> {
             "patches that have levels of their own need as many levels as there are patches, and others none",
         );
     }
-    if u32::try_from(input.patches.len()).is_err() || domain > TESS_ISOLINES {
-        return wrong("there are more patches than can be counted, or their domain is unknown");
+    if u32::try_from(input.patches.len()).is_err() {
+        return wrong("there are more patches than 32 bits can count");
+    }
+    if domain > TESS_ISOLINES {
+        return wrong("patches are triangles, quadrilaterals or isolines, and the domain is none of these");
     }
     Ok(())
 }
