@@ -29,6 +29,7 @@
 #![no_std]
 
 pub mod abi;
+pub mod accel;
 pub mod adjacency;
 pub mod backend;
 pub mod border;

@@ -1,0 +1,52 @@
+//! Axis-aligned boxes.
+#![deny(clippy::float_arithmetic)]
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::num::{add, max, min, mul, sub};
+
+/// An axis-aligned box; `low` is above `high` where there is nothing in it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Bounds {
+    /// Smallest coordinates.
+    pub low: [f32; 3],
+    /// Largest coordinates.
+    pub high: [f32; 3],
+}
+
+impl Bounds {
+    /// Of nothing.
+    pub const NONE: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
+
+    /// Of points.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(points: &[[f32; 3]]) -> Self {
+        points.iter().fold(Self::NONE, |bounds, point| bounds.union(Self { low: *point, high: *point }))
+    }
+
+    /// The smallest box about two.
+    #[inline(always)]
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        let (a, b, c, d) = (self.low, other.low, self.high, other.high);
+        Self {
+            low: [min(a[0], b[0]), min(a[1], b[1]), min(a[2], b[2])],
+            high: [max(c[0], d[0]), max(c[1], d[1]), max(c[2], d[2])],
+        }
+    }
+
+    /// Is another box inside?
+    #[must_use]
+    pub fn contains(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.low[axis] <= other.low[axis] && self.high[axis] >= other.high[axis])
+    }
+
+    /// Half of its surface; 0 of nothing.
+    #[must_use]
+    pub fn half_area(&self) -> f32 {
+        let side = |axis: usize| max(sub(self.high[axis], self.low[axis]), 0.0);
+        add(add(mul(side(0), side(1)), mul(side(1), side(2))), mul(side(2), side(0)))
+    }
+}
