@@ -6,6 +6,7 @@
 mod gpu;
 
 use std::error::Error;
+use std::ops::ControlFlow;
 
 use bytemuck::cast_slice;
 use glam::{DMat4, DVec3, DVec4};
@@ -60,6 +61,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("name an .obj file and a PNG file to write".into());
     };
     let source = TessSource::load(mesh.as_ref())?;
+    if source.is_bezier {
+        return Err("this divides triangles: name an .obj file".into());
+    }
     let (low, high) = source.bounds();
     let (middle, radius) = ((low + high) * 0.5, (high - low).length() * 0.5);
     let eye = middle + DVec3::new(0.4, 0.3, 1.0).normalize() * radius * 3.0;
@@ -79,7 +83,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let input = TessInput { frame, patches: &source.patches, levels: &[], heights: &[] };
     let plan = TessPlan::new(&input, MEMORY)?;
-    let buffers = plan.prepare(&mut micropoly, &input)?;
+    let buffers = plan.prepare(&mut micropoly)?;
     let to_clip = projection(&camera) * DMat4::from(camera.view);
     let painter = Painter::new(&device, &queue, to_clip);
     let counts = plan.run(&mut micropoly, &buffers, |micropoly, chunk| painter.draw(micropoly, chunk))?;
@@ -126,7 +130,11 @@ impl Painter {
     }
 
     /// The buffers of the chunk are this pipeline's vertex and index buffers.
-    fn draw(&self, micropoly: &mut WgpuDevice, chunk: &Chunk<'_, WgpuBuffer>) -> Result<(), WgpuError> {
+    fn draw(
+        &self,
+        micropoly: &mut WgpuDevice,
+        chunk: &Chunk<'_, WgpuBuffer>,
+    ) -> Result<ControlFlow<()>, WgpuError> {
         micropoly.submit(); // what makes the chunk comes first
         let is_first = chunk.before == 0;
         let mut commands = micropoly.device().create_command_encoder(&Default::default());
@@ -154,7 +162,7 @@ impl Painter {
             pass.draw_indexed(0..3 * chunk.totals.primitives, 0, 0..1);
         }
         micropoly.queue().submit([commands.finish()]);
-        Ok(())
+        Ok(ControlFlow::Continue(()))
     }
 }
 

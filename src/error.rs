@@ -117,12 +117,12 @@ impl Error {
 fn remedy(error: &PlanError) -> String {
     match error {
         PlanError::Invalid { option, least, most, .. } => format!("choose a {option} from {least} to {most}"),
-        PlanError::Budget { needed, .. } => format!("use --memory {needed} or more, or a smaller --res"),
+        PlanError::Budget { needed, .. } => format!("use --memory {needed} or more (to render: or a smaller --res)"),
         PlanError::Level { needed, .. } => format!(
             "use --memory {needed} or more (a later level may need more still), or --scheduler adaptive, which needs \
              no more than a fixed amount"
         ),
-        PlanError::Tessellation { .. } => "change one of them".to_owned(),
+        PlanError::Tessellation { .. } => "see `micropoly_core::tess::stream::TessInput`".to_owned(),
         PlanError::BreadthMesh => "choose adaptive, bounded, local or stack".to_owned(),
         PlanError::TooLarge { buffer: "vertices" | "indices", .. } => {
             "choose a larger --micropolygon-size, another device (see `micropoly devices` for limits) or --backend cpu"

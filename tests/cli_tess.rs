@@ -17,6 +17,15 @@ fn folder(mesh: &str) -> TempDir {
     folder
 }
 
+/// A grey picture, as a PNG file.
+fn bumps() -> Vec<u8> {
+    let mut png = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new(&mut png);
+    let grey: Vec<u8> = (0..64).map(|k| (k * 37 % 256) as u8).collect();
+    image::ImageEncoder::write_image(encoder, &grey, 8, 8, image::ExtendedColorType::L8).expect("encodes");
+    png
+}
+
 /// Runs the program in a folder, with this on its standard input.
 fn micropoly(folder: &Path, arguments: &[&str], input: &str) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_micropoly"))
@@ -89,11 +98,7 @@ fn levels_of_detail_are_finer_near_the_eye() {
 #[test]
 fn height_maps_move_points_and_what_was_made_can_be_rendered() {
     let folder = folder(TETRAHEDRON);
-    let mut png = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new(&mut png);
-    let grey: Vec<u8> = (0..64).map(|k| (k * 37 % 256) as u8).collect();
-    image::ImageEncoder::write_image(encoder, &grey, 8, 8, image::ExtendedColorType::L8).expect("encodes");
-    std::fs::write(folder.path().join("bumps.png"), png).expect("written");
+    std::fs::write(folder.path().join("bumps.png"), bumps()).expect("written");
     let bumps = ["--heightmap", "bumps.png", "--scale", "0.2"];
     let said = tessellated(&folder, &[&["--levels", "16", "--check", "-o", "out.obj"], &bumps[..]].concat());
     assert_eq!(told(&said, "open edges"), "0");
@@ -115,7 +120,8 @@ fn what_cannot_be_done_by_levels_is_refused() {
     std::fs::write(folder.path().join("plain.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
     std::fs::write(folder.path().join("scene.toml"), "").expect("written");
     std::fs::write(folder.path().join("text.png"), "no picture").expect("written");
-    let cases: [(&[&str], i32, &str); 14] = [
+    std::fs::write(folder.path().join("bumps.png"), bumps()).expect("written");
+    let cases: [(&[&str], i32, &str); 15] = [
         (&["mesh.obj", "--levels", "0"], 1, "every patch is dropped"),
         (&["mesh.obj", "--levels", "nan"], 1, "every patch is dropped"),
         (&["mesh.obj", "--levels", "-3"], 1, "every patch is dropped"),
@@ -124,7 +130,8 @@ fn what_cannot_be_done_by_levels_is_refused() {
         (&["scene.toml", "--levels", "2"], 1, "scene.toml"),
         (&["mesh.obj", "--levels", "2", "--heightmap", "missing.png"], 1, "missing.png"),
         (&["mesh.obj", "--levels", "2", "--heightmap", "text.png"], 1, "text.png"),
-        (&["plain.obj", "--levels", "2", "--heightmap", "text.png"], 1, "text.png"),
+        (&["plain.obj", "--levels", "2", "--heightmap", "bumps.png"], 1, "texture coordinates"),
+        (&["mesh.obj", "--levels", "2", "--eye", "0,0,1"], 2, "--lod"),
         (&["mesh.obj", "--levels", "2", "--memory", "1000"], 1, "--memory"),
         (&["mesh.obj", "--levels", "2", "--dice", "4"], 2, "--dice"),
         (&["mesh.obj", "--levels", "2", "--lod", "4"], 2, "--lod"),

@@ -125,6 +125,11 @@ impl CpuDevice {
         self.own.evaluate = evaluate;
     }
 
+    /// Does something on the device's threads.
+    pub(crate) fn install<T: Send>(&self, job: impl FnOnce() -> T + Send) -> T {
+        self.pool.install(job)
+    }
+
     /// What the device is called in reports.
     #[must_use]
     pub fn name(&self) -> String {

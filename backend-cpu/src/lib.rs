@@ -1,6 +1,7 @@
 //! micropoly's stages on the CPU: loops over the functions of `micropoly-core`, spread over threads by
 //! rayon. There is no arithmetic here, so the bits are core's, whatever the number of threads.
 
+mod accel;
 mod buffer;
 mod device;
 mod draw;
@@ -10,6 +11,7 @@ mod sort_last;
 mod stages;
 mod tessellate;
 
+pub use accel::Lbvh;
 pub use buffer::CpuBuffer;
 pub use device::{CpuDevice, CpuError};
 pub use tessellate::{Evaluate, Levels};

@@ -121,6 +121,8 @@ struct ByCaller<'a> {
 }
 
 impl Evaluation for ByCaller<'_> {
+    const IS_PURE: bool = false;
+
     fn at(&self, coordinates: [u32; 3]) -> TessVertex {
         (self.evaluate)(self.index, self.patch, coordinates)
     }

@@ -2,6 +2,7 @@
 //!
 //! Runs on every OpenCL device there is; without one it fails, since nothing would be tested.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use micropoly_backend_cpu::CpuDevice;
@@ -68,7 +69,7 @@ struct Read {
 /// Tessellates, and reads all chunks.
 fn chunks<D: Device>(device: &mut D, input: &TessInput<'_>, memory: u64) -> Result<Vec<Read>, D::Error> {
     let plan = TessPlan::new(input, memory)?;
-    let buffers = plan.prepare(device, input)?;
+    let buffers = plan.prepare(device)?;
     let mut all = Vec::new();
     plan.run(device, &buffers, |device, chunk| {
         let totals = chunk.totals;
@@ -77,7 +78,7 @@ fn chunks<D: Device>(device: &mut D, input: &TessInput<'_>, memory: u64) -> Resu
         device.read(chunk.vertices, 0, &mut vertices)?;
         device.read(chunk.indices, 0, &mut indices)?;
         all.push(Read { totals, vertices: bytemuck::cast_slice(&vertices).to_vec(), indices });
-        Ok(())
+        Ok(ControlFlow::Continue(()))
     })?;
     Ok(all)
 }

@@ -159,18 +159,18 @@ shared_constants! {
     const TESS_LENGTH: u32 = 1;
     /// [`TessFrame::control`]: the level of an edge is [`TessFrame::factor`] over its distance from the eye.
     const TESS_DISTANCE: u32 = 2;
+    /// [`TessFrame::control`]: each patch has levels of its own.
+    const TESS_GIVEN: u32 = 3;
     /// [`TessFrame::evaluation`]: points of a patch lie on the plane, or the ruled surface, through its corners.
     const TESS_LINEAR: u32 = 0;
     /// [`TessFrame::evaluation`]: on its PN triangle (Vlachos et al. 2001).
     const TESS_PN: u32 = 1;
     /// [`TessFrame::evaluation`]: by Phong tessellation (Boubekeur and Alexa 2008).
     const TESS_PHONG: u32 = 2;
-    /// [`TessFrame::evaluation`]: positions are the coordinates themselves, in units of 1.
-    const TESS_COORDINATES: u32 = 4;
-    /// [`TessFrame::control`]: each patch has levels of its own.
-    const TESS_GIVEN: u32 = 3;
     /// [`TessFrame::evaluation`]: on the bicubic Bézier patch of its 16 points.
     const TESS_BEZIER: u32 = 3;
+    /// [`TessFrame::evaluation`]: positions are the coordinates themselves, in units of 1.
+    const TESS_COORDINATES: u32 = 4;
     /// Bits of a converted level that are the level, in units of 2⁻¹⁶.
     const LEVEL_FIXED: u32 = 0x00ff_ffff;
     /// Bit of a converted level: its number of segments is odd.
@@ -539,9 +539,9 @@ shared_structs! {
         spacing: u32,
         /// `TESS_…` bits.
         flags: u32,
-        /// `TESS_CONSTANT`, `TESS_LENGTH` or `TESS_DISTANCE`.
+        /// `TESS_CONSTANT`, `TESS_LENGTH`, `TESS_DISTANCE` or `TESS_GIVEN`.
         control: u32,
-        /// `TESS_LINEAR`, `TESS_PN`, `TESS_PHONG` or `TESS_BEZIER`.
+        /// `TESS_LINEAR`, `TESS_PN`, `TESS_PHONG`, `TESS_BEZIER` or `TESS_COORDINATES`.
         evaluation: u32,
         /// Columns of the height map, 0 = there is none.
         columns: u32,

@@ -93,7 +93,7 @@ pub const fn sqrt(x: f32) -> f32 {
     mul(x, rsqrt(x))
 }
 
-/// The nearest integer, ties to even, for `|x|` < 2²².
+/// The nearest integer, ties to even, for `|x|` ≤ 2²².
 ///
 /// Adding 1.5 · 2²³ leaves the integer in the low bits of the mantissa: no conversion is needed.
 #[inline(always)]

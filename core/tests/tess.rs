@@ -68,7 +68,7 @@ fn mesh(frame: &TessFrame, levels: &TessLevels) -> Mesh {
 fn some_levels(random: &mut fastrand::Rng) -> f32 {
     match random.u32(0..6) {
         0 => random.u32(1..=64) as f32,
-        1 => random.u32(1..=64) as f32 + 1.0 / 65536.0,
+        1 => random.u32(1..=64) as f32 * (1.0 + f32::EPSILON * random.u32(0..200) as f32),
         2 => 1.0 + random.f32(),
         _ => 1.0 + 63.0 * random.f32() * random.f32(),
     }
@@ -83,7 +83,7 @@ fn random_levels(random: &mut fastrand::Rng) -> TessLevels {
 fn each_mesh(mut check: impl FnMut(&TessFrame, &TessLevels, &Mesh)) {
     let mut random = fastrand::Rng::with_seed(1);
     for frame in frames() {
-        let steps = [1.0, 1.5, 2.0, 2.75, 3.0, 4.0, 5.1, 7.0, 16.0];
+        let steps = [1.0, 1.0 + f32::EPSILON, 1.0 + 1.0 / 262144.0, 1.5, 2.0, 2.75, 3.0, 4.0, 5.1, 7.0, 16.0];
         for outer in steps {
             for inner in steps {
                 let all = levels([outer, inner, outer, 1.0], [inner, outer]);

@@ -199,7 +199,7 @@ pub(crate) struct TessellateArguments {
     /// camera had turned to it.
     #[arg(long)]
     visible: bool,
-    /// Count the edges that are not shared by two triangles.
+    /// Count the edges that are not shared by two triangles. The mesh is kept in main memory for that, with `-o none`, too.
     #[arg(long)]
     pub(crate) check: bool,
     /// What to tessellate on. The mesh does not depend on it.
@@ -324,7 +324,7 @@ pub(crate) struct BenchArguments {
     /// Measure how cages become patches instead: regular tori, tori with extraordinary vertices, and triangles.
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "scenes"])]
     pub(crate) cage: bool,
-    /// Measure the tessellator instead: meshes × levels (Stadlbauer 2019, ch. 6).
+    /// Measure the tessellator instead: meshes × levels (Stadlbauer 2019, ch. 6), within --memory (256 MiB unless given).
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "scenes"])]
     pub(crate) tess: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
@@ -433,7 +433,7 @@ pub(crate) struct FrameArguments {
     /// Memory that the device may use, for example 64MiB; breadth ends in an error once it needs more. The image
     /// does not depend on it.
     #[arg(long, value_name = "BYTES", allow_negative_numbers = true, value_parser = bytes)]
-    memory: Option<u64>,
+    pub(crate) memory: Option<u64>,
     /// How the stack of surfaces is worked off. The image does not depend on it.
     #[arg(long, value_enum, default_value_t = SchedulerChoice::Adaptive)]
     scheduler: SchedulerChoice,
@@ -444,7 +444,7 @@ pub(crate) struct FrameArguments {
     /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
     #[arg(long, value_name = "N", default_value = "0", allow_negative_numbers = true,
           value_parser = value_parser!(u16).range(0..=1024))]
-    threads: u16,
+    pub(crate) threads: u16,
     /// Rules by which surfaces are culled and split: those of Weber's program are for comparison, and leave holes.
     #[arg(long, value_enum, default_value_t = ProfileChoice::Conservative)]
     profile: ProfileChoice,

@@ -7,7 +7,7 @@ use micropoly::tess::{Row, measure};
 use super::args::BenchArguments;
 use super::render::write_json;
 
-/// Bytes of a device's memory.
+/// Bytes of a device's memory, unless another number is given.
 const MEMORY: u64 = 256 << 20;
 
 pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
@@ -22,10 +22,11 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
         "evaluation ms",
         "M triangles/s"
     );
+    let (memory, threads) = (arguments.frame.memory.unwrap_or(MEMORY), usize::from(arguments.frame.threads));
     let mut rows = Vec::new();
     for entry in devices(arguments.backend.only())? {
         say!("{}", entry.name);
-        rows.extend(measure(&entry, MEMORY, arguments.repeat, |row| say!("{}", line(row)))?);
+        rows.extend(measure(&entry, threads, memory, arguments.repeat, |row| say!("{}", line(row)))?);
     }
     match &arguments.json {
         Some(path) => write_json(path, &rows),

@@ -14,25 +14,24 @@ use micropoly::{Error, Result};
 use super::args::{TessellateArguments, bytes};
 use super::render::check_folder;
 
-/// The field of view of cameras that stand around a mesh.
-const FOV: f64 = 40.0;
-
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Meshes by levels")]
 #[command(group = ArgGroup::new("by_levels").args(["levels", "lod", "distance"]))]
+#[command(group = ArgGroup::new("by_eye").args(["lod", "distance"]))]
 pub(crate) struct LevelArguments {
     /// Divide all edges of the mesh into so many segments (a level: 1 to 64, clamped and rounded as OpenGL does), instead of
     /// as finely as a camera needs it.
     #[arg(long, value_name = "LEVEL", allow_negative_numbers = true, conflicts_with = "by_scene")]
     levels: Option<f32>,
-    /// Divide each edge of the mesh into segments about so many pixels long, in the image of --res.
+    /// Divide each edge of the mesh into segments about so many pixels long, in the image of --res, but into no more than 64.
     #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = above_zero, conflicts_with = "by_scene")]
     lod: Option<f32>,
-    /// Divide each edge of the mesh into so many segments at distance 1 from the eye, half as many at distance 2, and so on.
+    /// Divide each edge of the mesh into so many segments at distance 1 from the eye, half as many at distance 2, and so on, but
+    /// into no more than 64.
     #[arg(long, value_name = "LEVEL", allow_negative_numbers = true, value_parser = above_zero, conflicts_with = "by_scene")]
     distance: Option<f32>,
     /// Where the eye is, for --lod and --distance. [default: where the camera stands that renders the mesh]
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point, requires = "by_levels")]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = point, requires = "by_eye")]
     eye: Option<DVec3>,
     /// How segments are spaced.
     #[arg(long, value_enum, default_value_t = SpacingChoice::Equal, requires = "by_levels")]
@@ -46,7 +45,7 @@ pub(crate) struct LevelArguments {
     /// Move points along their normals by this picture (.png, .exr), which is looked up by the mesh's texture coordinates.
     #[arg(long, value_name = "FILE", requires = "by_levels")]
     heightmap: Option<PathBuf>,
-    /// How far the brightest pixel moves them.
+    /// How far a white pixel, or the height 1, moves them.
     #[arg(
         long,
         value_name = "LENGTH",
@@ -55,7 +54,7 @@ pub(crate) struct LevelArguments {
         requires = "heightmap"
     )]
     scale: f32,
-    /// Memory of the device; the mesh comes in as many chunks as it takes.
+    /// Memory of the device, patches included; the mesh comes in as many chunks as it takes.
     #[arg(long, value_name = "BYTES", default_value = "256MiB", value_parser = bytes, requires = "by_levels")]
     memory: u64,
 }
@@ -66,12 +65,12 @@ impl LevelArguments {
         self.levels.is_some() || self.lod.is_some() || self.distance.is_some()
     }
 
-    fn control(&self, height: u32) -> Control {
-        match (self.levels, self.lod, self.distance) {
+    fn control(&self, source: &TessSource, height: u32) -> Result<Control> {
+        Ok(match (self.levels, self.lod, self.distance) {
             (Some(level), ..) => Control::Level(level),
-            (_, Some(pixels), _) => Control::Pixels { pixels, height, fov: FOV },
+            (_, Some(pixels), _) => Control::Pixels { pixels, focal: source.camera()?.focal(height) },
             (.., distance) => Control::Distance(distance.unwrap_or(1.0)),
-        }
+        })
     }
 
     fn heights(&self) -> Result<Option<(HeightMap, f32)>> {
@@ -87,8 +86,9 @@ pub(crate) fn run(arguments: &TessellateArguments) -> Result<()> {
         check_folder(path)?;
     }
     let levels = &arguments.levels;
+    let source = TessSource::load(&arguments.scene.scene)?;
     let options = TessOptions {
-        control: levels.control(arguments.res.1),
+        control: levels.control(&source, arguments.res.1)?,
         eye: levels.eye,
         spacing: levels.spacing.into(),
         profile: levels.tess_profile.into(),
@@ -99,10 +99,12 @@ pub(crate) fn run(arguments: &TessellateArguments) -> Result<()> {
         device: arguments.device.clone(),
         threads: 0,
     };
-    let source = TessSource::load(&arguments.scene.scene)?;
     let done = tessellate(&source, &options, format.is_some() || arguments.check)?;
     for note in source.notes.iter().chain(&done.notes) {
         eprintln!("note: {note}");
+    }
+    if source.is_bezier && levels.evaluation != EvaluationChoice::Linear {
+        eprintln!("note: --evaluation is for triangles, and these are Bézier patches");
     }
     if let (Some(mesh), Some(format)) = (&done.mesh, format) {
         mesh.save(path, *format)?;
@@ -110,7 +112,9 @@ pub(crate) fn run(arguments: &TessellateArguments) -> Result<()> {
     }
     eprintln!("patches       {}", source.patches.len());
     eprintln!("vertices      {}", done.counts.vertices);
-    eprintln!("triangles     {}", done.counts.primitives);
+    // Those of no area are not in a file.
+    let kept = done.mesh.as_ref().map_or(done.counts.primitives, |mesh| mesh.triangles.len() as u64);
+    eprintln!("triangles     {kept}");
     eprintln!("chunks        {} of at most {}", done.counts.chunks, ByteSize(levels.memory).display().iec());
     if let (true, Some(mesh)) = (arguments.check, &done.mesh) {
         eprintln!("open edges    {}", mesh.open_edges());

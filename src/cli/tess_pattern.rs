@@ -4,11 +4,8 @@ use std::io::{Read, Write};
 use std::path::PathBuf;
 
 use clap::Args;
-use micropoly::core::backend::Device;
-use micropoly::devices::{Job, with_device};
-use micropoly::tess::Profile;
-use micropoly::tess::pattern::{Answer, Question, answers, questions};
-use micropoly::{Backend, Error, Result};
+use micropoly::tess::pattern::{ask, questions};
+use micropoly::{Error, Result};
 
 use super::args::BackendChoice;
 use super::levels::ProfileChoice;
@@ -32,31 +29,17 @@ pub(crate) fn run(arguments: &TessPatternArguments) -> Result<()> {
     let unread = |source| Error::Read { path: name.clone(), source };
     std::io::stdin().lock().read_to_string(&mut text).map_err(unread)?;
     let questions = questions(&text, &name)?;
-    let (devices, notes) = Backend::from(arguments.backend).candidates(arguments.device.as_deref())?;
-    notes.iter().for_each(|note| eprintln!("note: {note}"));
-    let profile = arguments.profile.into();
-    let entry = devices.first().expect("a backend without devices is an error");
-    let answers = with_device(entry, 0, Ask { questions: &questions, profile })??;
+    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     let unwritten =
         |error: std::io::Error| Error::Write { path: "standard output".into(), why: error.to_string() };
-    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-    for answer in answers {
-        serde_json::to_writer(&mut out, &answer).map_err(|error| unwritten(error.into()))?;
-        out.write_all(b"\n").map_err(unwritten)?;
-    }
+    let (backend, device) = (arguments.backend.into(), arguments.device.as_deref());
+    let notes = ask(backend, device, &questions, arguments.profile.into(), |answers| {
+        for answer in answers {
+            serde_json::to_writer(&mut out, answer).map_err(|error| unwritten(error.into()))?;
+            out.write_all(b"\n").map_err(unwritten)?;
+        }
+        Ok(())
+    })?;
+    notes.iter().for_each(|note| eprintln!("note: {note}"));
     out.flush().map_err(unwritten)
-}
-
-/// Asking, as a job for any device.
-struct Ask<'a> {
-    questions: &'a [Question],
-    profile: Profile,
-}
-
-impl Job for Ask<'_> {
-    type Output = Result<Vec<Answer>>;
-
-    fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
-        answers(&mut device, self.questions, self.profile)
-    }
 }

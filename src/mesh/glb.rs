@@ -1,6 +1,7 @@
 //! glTF 2.0, binary: one mesh whose vertices have position, normal, texture coordinates and the number of their
 //! patch.
 
+use std::borrow::Cow;
 use std::io::{Error, Result, Write};
 
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
@@ -52,7 +53,7 @@ fn described(mesh: &Mesh) -> (Root, Vec<u8>) {
         ),
         (
             Semantic::TexCoords(0),
-            parts.list(bytemuck::cast_slice(&mesh.uvs), Type::Vec2, ComponentType::F32, 8),
+            parts.list(bytemuck::cast_slice(&texture(mesh)), Type::Vec2, ComponentType::F32, 8),
         ),
         (
             Semantic::Extras("PATCH".into()),
@@ -93,6 +94,14 @@ fn described(mesh: &Mesh) -> (Root, Vec<u8>) {
     root.scene = Some(Index::new(0));
     root.asset.generator = Some("micropoly".into());
     (root, binary)
+}
+
+/// Texture coordinates: here pictures begin at the top.
+fn texture(mesh: &Mesh) -> Cow<'_, [[f32; 2]]> {
+    if !mesh.is_textured {
+        return Cow::Borrowed(&mesh.uvs);
+    }
+    mesh.uvs.iter().map(|[u, v]| [*u, 1.0 - v]).collect()
 }
 
 struct Parts {

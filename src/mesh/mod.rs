@@ -34,8 +34,10 @@ pub struct Mesh {
     pub positions: Vec<[f32; 3]>,
     /// Unit normals, one a position: outwards is where u runs to the right and v upwards.
     pub normals: Vec<[f32; 3]>,
-    /// u and v of each within its patch, from 0 to 1.
+    /// u and v of each within its patch, from 0 to 1; or, if it is textured, those of its mesh.
     pub uvs: Vec<[f32; 2]>,
+    /// Are these for a picture, whose v runs upwards?
+    pub is_textured: bool,
     /// The patch of each.
     pub patches: Vec<u32>,
     /// Corners of each triangle, as indices into the lists above. None has two corners in the same place.

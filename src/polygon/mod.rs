@@ -50,6 +50,12 @@ pub enum PolygonError {
         /// Which vertex.
         vertex: usize,
     },
+    /// A vertex that is too far away to be tessellated.
+    #[error("vertex {vertex} (counted from 0) has a coordinate beyond 1e12")]
+    Far {
+        /// Which vertex.
+        vertex: usize,
+    },
     /// A face is said to be a hole that is not there.
     #[error("face {face} is to be a hole, but there are {faces} faces")]
     Hole {
@@ -68,6 +74,14 @@ pub enum PolygonError {
         /// Its corners.
         size: usize,
     },
+    /// A face of too many corners to be divided into triangles.
+    #[error("face {face} (counted from 0) has {size} corners; at most {MOST_CORNERS} can become triangles")]
+    Large {
+        /// Which face.
+        face: usize,
+        /// Its corners.
+        size: usize,
+    },
 }
 
 impl PolygonError {
@@ -75,8 +89,11 @@ impl PolygonError {
     #[must_use]
     pub const fn face(&self) -> Option<usize> {
         match self {
-            Self::Size { face, .. } | Self::Vertex { face, .. } | Self::Concave { face, .. } => Some(*face),
-            Self::Corners { .. } | Self::Position { .. } | Self::Hole { .. } => None,
+            Self::Size { face, .. }
+            | Self::Vertex { face, .. }
+            | Self::Concave { face, .. }
+            | Self::Large { face, .. } => Some(*face),
+            Self::Corners { .. } | Self::Position { .. } | Self::Far { .. } | Self::Hole { .. } => None,
         }
     }
 }
@@ -155,7 +172,7 @@ pub fn triangles(mesh: &Cage) -> Result<Vec<[u32; 3]>, PolygonError> {
 fn triangles_of(face: usize, corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, PolygonError> {
     match corners.len() {
         3 => Ok(vec![[0, 1, 2]]),
-        size if size > MOST_CORNERS => Err(PolygonError::Concave { face, size }),
+        size if size > MOST_CORNERS => Err(PolygonError::Large { face, size }),
         _ => Ok(triangulated(&Flat::new(corners).of(corners))),
     }
 }

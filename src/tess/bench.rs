@@ -2,11 +2,12 @@
 
 use std::time::Instant;
 
-use micropoly_core::abi::{TESS_CONSTANT, TessFrame, TessVertex};
+use micropoly_core::abi::{TESS_CONSTANT, TessFrame};
 use micropoly_core::backend::Device;
-use micropoly_core::tess::stream::{Chunk, TessCounts, TessInput, TessPlan};
+use micropoly_core::tess::stream::{TessCounts, TessInput, TessPlan};
 use serde::Serialize;
 
+use super::chunk::wait;
 use super::source::TessSource;
 use crate::cage::generate::{Layout, torus_cage};
 use crate::devices::{DeviceEntry, Job, with_device};
@@ -32,7 +33,8 @@ pub struct Row {
     pub triangles: u64,
     /// Chunks that they come in.
     pub chunks: u64,
-    /// Milliseconds of control, with patches to the device; the shortest of all runs.
+    /// Milliseconds of control, with patches to the device, and in the first run of what has to be compiled; the shortest of
+    /// all runs.
     pub control: f64,
     /// Milliseconds of evaluation, with places; the shortest of all runs.
     pub evaluation: f64,
@@ -40,12 +42,14 @@ pub struct Row {
     pub rate: f64,
 }
 
-/// Measures all meshes at all levels on a device, within so many bytes of its memory; `progress` is given each row.
+/// Measures all meshes at all levels on a device, the CPU with so many threads (0 = one a core), within so many bytes of its
+/// memory; `progress` is given each row.
 ///
 /// # Errors
 /// What the device reports.
 pub fn measure(
     entry: &DeviceEntry,
+    threads: usize,
     memory: u64,
     repeat: u32,
     mut progress: impl FnMut(&Row),
@@ -54,7 +58,7 @@ pub fn measure(
     let mut rows = Vec::new();
     for (name, source) in &meshes {
         for level in LEVELS {
-            let row = with_device(entry, 0, Measure { name, source, level, memory, repeat })??;
+            let row = with_device(entry, threads, Measure { name, source, level, memory, repeat })??;
             progress(&row);
             rows.push(row);
         }
@@ -104,7 +108,7 @@ impl Job for Measure<'_> {
         for _ in 0..repeat {
             let mut run = || {
                 let start = Instant::now();
-                let buffers = plan.prepare(&mut device, &input)?;
+                let buffers = plan.prepare(&mut device)?;
                 control = milliseconds(start).min(control);
                 // The first time, the system has to find the memory.
                 for _ in 0..2 {
@@ -132,11 +136,6 @@ impl Job for Measure<'_> {
 
 fn milliseconds(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
-}
-
-/// Returns when the device has made a chunk.
-fn wait<D: Device>(device: &mut D, chunk: &Chunk<'_, D::Buffer>) -> std::result::Result<(), D::Error> {
-    device.read(chunk.vertices, 0, &mut [TessVertex::default()])
 }
 
 /// The built-in teapot's 32 patches.

@@ -7,6 +7,7 @@ mod outcome;
 pub mod pattern;
 mod source;
 
+use std::cell::RefCell;
 use std::time::Instant;
 
 use glam::DVec3;
@@ -14,21 +15,20 @@ use micropoly_core::abi::{
     TESS_CONSTANT, TESS_DISTANCE, TESS_LENGTH, TESS_LINEAR, TESS_PHONG, TESS_PN, TessFrame,
 };
 use micropoly_core::backend::Device;
-use micropoly_core::tess::stream::{TessCounts, TessInput, TessPlan};
+use micropoly_core::tess::stream::{TessCounts, TessInput};
 
 use crate::backend::{Backend, on_first_device};
 use crate::devices::{Job, with_device};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::render::RenderOptions;
-use crate::scene::camera_around;
 
 pub use bench::{LEVELS, Row, measure};
 pub use height::HeightMap;
 pub use pattern::{Profile, Spacing};
 pub use source::TessSource;
 
-use chunk::each_chunk;
+use chunk::{count, each_chunk_of};
 use outcome::Outcome;
 
 /// Which levels patches get.
@@ -36,15 +36,12 @@ use outcome::Outcome;
 pub enum Control {
     /// All the same one.
     Level(f32),
-    /// Edges become segments about so many pixels long, in an image of this height seen from the eye with this field of
-    /// view in degrees.
+    /// Edges become segments about so many pixels long, seen from the eye, but no more than 64.
     Pixels {
         /// Length of a segment.
         pixels: f32,
-        /// Rows of the image.
-        height: u32,
-        /// Vertical field of view in degrees.
-        fov: f64,
+        /// Focal length of the camera, in pixels.
+        focal: f64,
     },
     /// So much, divided by the distance of the edge from the eye.
     Distance(f32),
@@ -111,7 +108,7 @@ pub struct Tessellated {
     pub mesh: Option<Mesh>,
     /// What it comes to.
     pub counts: TessCounts,
-    /// Seconds that the device took, reading included.
+    /// Seconds from the first buffer to the end of the last chunk: compiling what the device needs, and reading, included.
     pub seconds: f64,
     /// What a user should be told.
     pub notes: Vec<String>,
@@ -129,11 +126,14 @@ pub fn tessellate(source: &TessSource, options: &TessOptions, wants_mesh: bool) 
     let devices = RenderOptions {
         backend: options.backend,
         device: options.device.clone(),
-        threads: options.threads,
         ..RenderOptions::default()
     };
     let (done, notes) = on_first_device(&devices, |entry| {
-        with_device(entry, options.threads, Tessellate { input: &input, memory: options.memory, wants_mesh })
+        with_device(
+            entry,
+            options.threads,
+            Tessellate { input: &input, memory: options.memory, wants_mesh, is_textured: source.has_texture },
+        )
     })?;
     let done = done?;
     if done.counts.vertices == 0 && !source.patches.is_empty() {
@@ -168,16 +168,15 @@ fn frame(source: &TessSource, options: &TessOptions) -> Result<TessFrame> {
             (frame.outer, frame.inner) = ([level; 4], [level; 2]);
             (TESS_CONSTANT, 0.0)
         }
-        Control::Pixels { pixels, height, fov } => {
-            let focal = 0.5 * f64::from(height) / libm::tan(fov.to_radians() * 0.5);
-            (TESS_LENGTH, (focal / f64::from(pixels)) as f32)
-        }
+        Control::Pixels { pixels, focal } => (TESS_LENGTH, (focal / f64::from(pixels)) as f32),
         Control::Distance(factor) => (TESS_DISTANCE, factor),
     };
     if frame.control != TESS_CONSTANT && !(1.0e-6..=1.0e9).contains(&frame.factor) {
         return Err(Error::scene("levels of detail are out of range", "choose a number nearer to 1"));
     }
-    frame.eye = eye(source, options)?.as_vec3().to_array();
+    if frame.control != TESS_CONSTANT {
+        frame.eye = eye(source, options)?.as_vec3().to_array();
+    }
     Ok(frame)
 }
 
@@ -185,15 +184,10 @@ fn frame(source: &TessSource, options: &TessOptions) -> Result<TessFrame> {
 const PHONG: f32 = 0.75;
 
 fn eye(source: &TessSource, options: &TessOptions) -> Result<DVec3> {
-    if let Some(eye) = options.eye {
-        return Ok(eye);
+    match options.eye {
+        Some(eye) => Ok(eye),
+        None => Ok(source.camera()?.view.inverse().translation),
     }
-    if source.patches.is_empty() {
-        return Ok(DVec3::ZERO);
-    }
-    let up = if source.is_bezier { DVec3::Z } else { DVec3::Y };
-    let (low, high) = source.bounds();
-    Ok(camera_around(low, high, up)?.view.inverse().translation)
 }
 
 fn check_heights(source: &TessSource, scale: f32) -> Result<()> {
@@ -221,13 +215,14 @@ struct Tessellate<'a> {
     input: &'a TessInput<'a>,
     memory: u64,
     wants_mesh: bool,
+    is_textured: bool,
 }
 
 impl Job for Tessellate<'_> {
     type Output = Result<Tessellated>;
 
     fn run<D: Device>(self, mut device: D, _: String) -> Self::Output {
-        let Self { input, memory, wants_mesh } = self;
+        let Self { input, memory, wants_mesh, is_textured } = self;
         let start = Instant::now();
         if !wants_mesh {
             let counts = count(&mut device, input, memory)?;
@@ -237,20 +232,16 @@ impl Job for Tessellate<'_> {
                 ..Tessellated::default()
             });
         }
-        let mut outcome = Outcome::default();
-        let counts = each_chunk(&mut device, input, memory, |chunk| outcome.add(&chunk))?;
+        let outcome = RefCell::new(Outcome::default());
+        let counts = each_chunk_of(
+            &mut device,
+            input,
+            memory,
+            |counts| outcome.borrow_mut().reserve(counts),
+            |chunk| outcome.borrow_mut().add(&chunk),
+        )?;
         let seconds = start.elapsed().as_secs_f64();
-        let mesh = Some(outcome.finish(input.frame.columns > 0));
+        let mesh = Some(outcome.into_inner().finish(input.frame.columns > 0, is_textured));
         Ok(Tessellated { mesh, counts, seconds, notes: Vec::new() })
     }
-}
-
-/// Tessellates without reading the mesh.
-fn count<D: Device>(device: &mut D, input: &TessInput<'_>, memory: u64) -> Result<TessCounts> {
-    let plan = TessPlan::new(input, memory).map_err(Error::Plan)?;
-    let run = |device: &mut D| {
-        let buffers = plan.prepare(device, input)?;
-        plan.run(device, &buffers, |_, _| Ok(()))
-    };
-    run(device).map_err(|error: D::Error| Error::on_device(&error))
 }

@@ -1,6 +1,7 @@
 //! A tessellation as a mesh in main memory, for files.
 
 use micropoly_core::abi::TessVertex;
+use micropoly_core::tess::stream::TessCounts;
 
 use super::chunk::HostChunk;
 use super::source::normals;
@@ -14,13 +15,23 @@ pub(super) struct Outcome {
 }
 
 impl Outcome {
+    /// Makes room for a mesh, so that there is an error before anything is made if there is none.
+    pub(super) fn reserve(&mut self, counts: TessCounts) -> Result<()> {
+        let remedy = "choose smaller levels, or -o none without --check, which keeps no mesh";
+        let too_large = |problem: &str| Error::scene(problem, remedy);
+        let vertices = u32::try_from(counts.vertices)
+            .map_err(|_| too_large("the mesh has more vertices than 32 bits can number"))?
+            as usize;
+        let Mesh { positions, normals, uvs, patches, triangles, .. } = &mut self.mesh;
+        let room = positions.try_reserve_exact(vertices).and(normals.try_reserve_exact(vertices));
+        let room = room.and(uvs.try_reserve_exact(vertices)).and(patches.try_reserve_exact(vertices));
+        room.and(triangles.try_reserve_exact(counts.primitives as usize))
+            .map_err(|_| too_large("there is no memory for so large a mesh"))
+    }
+
     /// Adds a chunk of triangles. A triangle two of whose corners are in the same place has collapsed and is left out.
     pub(super) fn add(&mut self, chunk: &HostChunk) -> Result<()> {
         let base = self.mesh.positions.len();
-        if u32::try_from(base + chunk.vertices.len()).is_err() {
-            let remedy = "choose smaller levels, or -o none";
-            return Err(Error::scene("the mesh has more vertices than 32 bits can number", remedy));
-        }
         for (patch, record) in (chunk.first..).zip(&chunk.records) {
             self.mesh.patches.extend((0..record.vertices).map(|_| patch as u32));
         }
@@ -38,7 +49,8 @@ impl Outcome {
 
     /// The mesh. Heights have turned its normals, and where Bézier patches collapse they have none: there they are the
     /// means of the triangles at each place.
-    pub(super) fn finish(mut self, is_displaced: bool) -> Mesh {
+    pub(super) fn finish(mut self, is_displaced: bool, is_textured: bool) -> Mesh {
+        self.mesh.is_textured = is_textured;
         let lacks = |normal: &[f32; 3]| is_displaced || *normal == [0.0; 3];
         if !self.mesh.normals.iter().any(lacks) {
             return self.mesh;

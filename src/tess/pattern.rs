@@ -15,9 +15,12 @@ use micropoly_core::tess::stream::TessInput;
 use serde::{Deserialize, Serialize};
 
 use super::chunk::each_chunk;
+use crate::backend::{Backend, on_first_device};
+use crate::devices::{Job, with_device};
 use crate::error::{Error, Result};
+use crate::render::RenderOptions;
 
-/// Memory for what is made of a batch of lines.
+/// Memory for what is made of a batch of questions.
 const MEMORY: u64 = 64 << 20;
 
 /// A kind of patches.
@@ -184,6 +187,46 @@ impl Question {
             *to = from.value().unwrap_or(f32::NAN);
         }
         levels
+    }
+}
+
+/// Questions that are answered together.
+const BATCH: usize = 256;
+
+/// Answers all questions on a device of a backend, in their order; `each` is given some at a time. Gives what a user should be
+/// told about the choice of the device.
+///
+/// # Errors
+/// [`Error::Backend`], [`Error::Refused`], [`Error::Device`], and what `each` reports.
+pub fn ask(
+    backend: Backend,
+    device: Option<&str>,
+    questions: &[Question],
+    profile: Profile,
+    mut each: impl FnMut(&[Answer]) -> Result<()>,
+) -> Result<Vec<String>> {
+    let options = RenderOptions { backend, device: device.map(str::to_owned), ..RenderOptions::default() };
+    let (done, notes) = on_first_device(&options, |entry| {
+        with_device(entry, 0, Ask { questions, profile, each: &mut each })
+    })?;
+    done.map(|()| notes)
+}
+
+/// Asking, as a job for any device.
+struct Ask<'a, F> {
+    questions: &'a [Question],
+    profile: Profile,
+    each: F,
+}
+
+impl<F: FnMut(&[Answer]) -> Result<()>> Job for Ask<'_, F> {
+    type Output = Result<()>;
+
+    fn run<D: Device>(mut self, mut device: D, _: String) -> Result<()> {
+        for some in self.questions.chunks(BATCH) {
+            (self.each)(&answers(&mut device, some, self.profile)?)?;
+        }
+        Ok(())
     }
 }
 

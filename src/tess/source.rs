@@ -12,9 +12,11 @@ use crate::cage::Cage;
 use crate::error::{Error, Result};
 use crate::mesh::weld;
 use crate::obj;
+use crate::picture::extension;
 use crate::polygon::{self, PolygonError};
+use crate::scene::camera_around;
 use crate::shape::BezierPatch;
-use crate::{bpt, picture::extension};
+use crate::{Camera, bpt};
 
 /// No coordinate is larger, so that all arithmetic of the tessellator stays in range.
 const FARTHEST: f64 = (1_u64 << 40) as f64;
@@ -41,7 +43,7 @@ impl TessSource {
     /// [`Error::Read`]; [`Error::Format`] with the line; [`Error::Content`] if the file is of another kind.
     pub fn load(path: &Path) -> Result<Self> {
         match extension(path).as_str() {
-            "bpt" => bpt::load(path).map(|patches| Self::of_bezier(&patches)),
+            "bpt" => of_bpt(path),
             "obj" => of_obj(path),
             _ => {
                 let remedy = "choose an .obj or .bpt file, or leave out --levels, --lod and --distance: then scenes are \
@@ -63,19 +65,25 @@ impl TessSource {
         Self { patches, is_bezier: true, ..Self::default() }
     }
 
-    /// The triangles of a mesh, faces of more corners divided; holes are left out. Normals are means of the triangles at
+    /// The triangles of a mesh, faces of more corners divided; holes are left out, and triangles two of whose corners are in the
+    /// same place. Normals are means of the triangles at
     /// each place, so that they are the same for all of them.
     ///
     /// # Errors
     /// [`PolygonError`] if the mesh contradicts itself.
     pub fn of_mesh(mesh: &Cage) -> std::result::Result<Self, PolygonError> {
-        let triangles = polygon::triangles(mesh)?;
+        let mut triangles = polygon::triangles(mesh)?;
         if let Some(vertex) = mesh.positions.iter().position(|p| p.iter().any(|x| x.abs() > FARTHEST)) {
-            return Err(PolygonError::Position { vertex });
+            return Err(PolygonError::Far { vertex });
         }
         let vertices: Vec<[f32; 3]> = mesh.positions.iter().map(|vertex| vertex.map(single)).collect();
         let (places, place_of) = weld::places(&vertices);
         let at = |corner: u32| place_of[mesh.corners[corner as usize] as usize];
+        // What has collapsed to a line lets its neighbours meet each other.
+        triangles.retain(|triangle| {
+            let [a, b, c] = triangle.map(at);
+            a != b && b != c && c != a
+        });
         let normals = normals(&places, triangles.iter().map(|triangle| triangle.map(at)));
         let uv = |corner: u32| texture(mesh, corner);
         let owners = Owners::of(&triangles, at);
@@ -114,7 +122,17 @@ impl TessSource {
         if self.is_bezier { TESS_BEZIER } else { chosen }
     }
 
-    /// The smallest box that has all points.
+    /// The camera that renders the mesh if nobody says otherwise.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the patches lie too far out to be seen.
+    pub fn camera(&self) -> Result<Camera> {
+        let up = if self.is_bezier { DVec3::Z } else { DVec3::Y };
+        let (low, high) = if self.patches.is_empty() { Default::default() } else { self.bounds() };
+        camera_around(low, high, up)
+    }
+
+    /// The smallest box that has all points; without patches its low end is at infinity, and above its high end.
     #[must_use]
     pub fn bounds(&self) -> (DVec3, DVec3) {
         let count = if self.is_bezier { 48 } else { 9 };
@@ -125,6 +143,16 @@ impl TessSource {
             (low.min(point), high.max(point))
         })
     }
+}
+
+fn of_bpt(path: &Path) -> Result<TessSource> {
+    let patches = bpt::load(path)?;
+    let is_far = |patch: &BezierPatch| patch.points.iter().flatten().any(|x| f64::from(x.abs()) > FARTHEST);
+    if let Some(patch) = patches.iter().position(is_far) {
+        let problem = format!("patch {patch} (counted from 0) has a coordinate beyond {FARTHEST:e}");
+        return Err(Error::content(path, problem, "scale the patches down, or mend the file"));
+    }
+    Ok(TessSource::of_bezier(&patches))
 }
 
 fn of_obj(path: &Path) -> Result<TessSource> {
@@ -139,7 +167,11 @@ fn of_obj(path: &Path) -> Result<TessSource> {
     };
     let mut source = TessSource::of_mesh(mesh).map_err(|error| {
         let line = error.face().and_then(|face| mesh.face_lines.get(face)).map_or(1, |line| *line as usize);
-        Error::format(path, line, error.to_string(), "triangulate the face, or repair the mesh")
+        let remedy = match error {
+            PolygonError::Far { .. } => "scale the mesh down, or mend the vertex",
+            _ => "triangulate the face, or repair the mesh",
+        };
+        Error::format(path, line, error.to_string(), remedy)
     })?;
     source.notes = file.warnings;
     if !file.surfaces.is_empty() {

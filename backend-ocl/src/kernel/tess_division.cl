@@ -40,13 +40,12 @@ static uint split_point(uint fraction, uint marks) {
     return marks == 0u ? 0u : 2u * (marks - highest_bit(marks)) + 1u;
 }
 
-// `a / b` in units of 2^-16, rounded; `a` <= `b` <= 2^23.
+// `a / b` in units of 2^-16, rounded; `a` < `b` <= 2^23.
 static uint quotient(uint a, uint b) {
-    const uint whole = a / b;
-    const uint high = (a % b) << 8;
+    const uint high = a << 8;
     const uint low = (high % b) << 8;
     const uint rest = low % b;
-    return (whole << 16) + ((high / b) << 8) + low / b + (2u * rest >= b ? 1u : 0u);
+    return ((high / b) << 8) + low / b + (2u * rest >= b ? 1u : 0u);
 }
 
 // Of a converted level.

@@ -1,7 +1,5 @@
 // Mirrors core/src/tess/level.rs: levels as they are asked for become levels as they are used, in fixed point.
 
-// Levels that differ from 1 by no more than this are 1: half a unit of a converted level.
-#define NEARLY_ONE 0x1.00008p0f
 // The smallest level above 1.
 #define BARELY_MORE 0x1.0001p0f
 
@@ -58,6 +56,11 @@ static uint level_word(__constant TessFrame *frame, uint spacing, float level) {
     return (fixed & LEVEL_FIXED) | (is_odd ? LEVEL_ODD : 0u) | rule;
 }
 
+// Is a converted level above 1?
+static bool is_above_one(uint word) {
+    return (word & LEVEL_FIXED) > TESS_UNIT;
+}
+
 // The levels of a patch as words, the outer ones first; all are 0 where the patch is to be dropped: an outer level is
 // not above 0, or not a number.
 static void convert(__constant TessFrame *frame, const TessLevels *levels, uint *words) {
@@ -68,16 +71,16 @@ static void convert(__constant TessFrame *frame, const TessLevels *levels, uint 
         return;
     }
     const uint2 counts = level_counts(frame->domain);
-    // One level above 1 is enough for a patch to have an inside.
+    // One level above 1, as they are converted, is enough for a patch to have an inside.
     bool is_divided = false;
     for (uint k = 0u; k < counts.x; k++) {
         const uint spacing = is_line_count(frame->domain, k) ? TESS_EQUAL : frame->spacing;
-        const float level = clamped(spacing, levels->outer[k], 1.0f);
-        is_divided = is_divided || level > NEARLY_ONE;
-        words[k] = level_word(frame, spacing, level);
+        words[k] = level_word(frame, spacing, clamped(spacing, levels->outer[k], 1.0f));
+        is_divided = is_divided || is_above_one(words[k]);
     }
     for (uint k = 0u; k < counts.y; k++) {
-        is_divided = is_divided || clamped(frame->spacing, levels->inner[k], 1.0f) > NEARLY_ONE;
+        const float level = clamped(frame->spacing, levels->inner[k], 1.0f);
+        is_divided = is_divided || is_above_one(level_word(frame, frame->spacing, level));
     }
     const float least = is_divided ? BARELY_MORE : 1.0f;
     for (uint k = 0u; k < counts.y; k++) {

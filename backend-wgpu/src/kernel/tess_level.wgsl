@@ -1,8 +1,6 @@
 // Mirrors core/src/tess/level.rs: levels as they are asked for become levels as they are used: clamped, rounded, in fixed
 // point.
 
-// Levels that differ from 1 by no more than this, half a unit of a converted level, are 1.
-const NEARLY_ONE: f32 = 1.00000762939453125;
 // The smallest level above 1.
 const BARELY_MORE: f32 = 1.0000152587890625;
 // The largest level of an odd number of segments.
@@ -28,22 +26,27 @@ fn convert(asked: TessLevels) -> array<u32, 6> {
         return words;
     }
     let counts = level_counts();
-    // One level above 1 is enough for a patch to have an inside.
+    // One level above 1, as they are converted, is enough for a patch to have an inside.
     var is_divided = false;
     for (var k = 0u; k < counts.x; k++) {
         let spacing = select(tess_frame.spacing, TESS_EQUAL, is_line_count(k));
-        let level = clamped(spacing, levels.outer[k], 1.0);
-        is_divided = is_divided || level > NEARLY_ONE;
-        words[k] = word(spacing, level);
+        words[k] = word(spacing, clamped(spacing, levels.outer[k], 1.0));
+        is_divided = is_divided || is_above_one(words[k]);
     }
     for (var k = 0u; k < counts.y; k++) {
-        is_divided = is_divided || clamped(tess_frame.spacing, levels.inner[k], 1.0) > NEARLY_ONE;
+        let level = clamped(tess_frame.spacing, levels.inner[k], 1.0);
+        is_divided = is_divided || is_above_one(word(tess_frame.spacing, level));
     }
     let least = select(1.0, BARELY_MORE, is_divided);
     for (var k = 0u; k < counts.y; k++) {
         words[4u + k] = word(tess_frame.spacing, clamped(tess_frame.spacing, levels.inner[k], least));
     }
     return words;
+}
+
+// Is a converted level above 1?
+fn is_above_one(converted: u32) -> bool {
+    return (converted & LEVEL_FIXED) > TESS_UNIT;
 }
 
 // The first level of isolines is how many there are, which are always spaced equally.

@@ -62,15 +62,19 @@ pub fn span(codes: &[u64], index: u32) -> Span {
         step /= 2;
     }
     let end = at + length * way;
-    let shared = common(codes, index, end);
-    let mut reach = 0;
-    let mut step = length;
-    while step > 1 {
-        step = (step + 1) / 2;
-        if reach + step < length && common(codes, index, at + (reach + step) * way) > shared {
-            reach += step;
-        }
+    let (first, last) = (at.min(end) as u32, at.max(end) as u32);
+    Span { first, last, split: split(codes, first, last) }
+}
+
+/// Last leaf of the first half of those from `first` to `last`, of which there are at least two: where codes differ first.
+#[inline(always)]
+#[must_use]
+pub fn split(codes: &[u64], first: u32, last: u32) -> u32 {
+    let shared = common(codes, first, i64::from(last));
+    let (mut low, mut high) = (first, last);
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if common(codes, first, i64::from(middle)) > shared { low = middle } else { high = middle }
     }
-    let split = at + reach * way + way.min(0);
-    Span { first: at.min(end) as u32, last: at.max(end) as u32, split: split as u32 }
+    low
 }

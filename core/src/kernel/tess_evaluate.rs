@@ -53,13 +53,16 @@ pub const fn corners(frame: &TessFrame) -> u32 {
 
 /// Evaluation of one patch.
 pub trait Evaluation {
+    /// May it be asked for the same vertex several times? That is quicker where vertices are evaluated together.
+    const IS_PURE: bool;
+
     /// The vertex at coordinates in units of 2⁻¹⁶.
     fn at(&self, coordinates: [u32; 3]) -> TessVertex;
 }
 
 /// Makes vertices of a patch; `out` is as long as the span.
 #[inline(always)]
-pub fn vertices(topology: &Topology, span: Span, out: &mut [TessVertex], evaluation: &impl Evaluation) {
+pub fn vertices<E: Evaluation>(topology: &Topology, span: Span, out: &mut [TessVertex], evaluation: &E) {
     if span.first == span.end {
         return;
     }
@@ -70,7 +73,11 @@ pub fn vertices(topology: &Topology, span: Span, out: &mut [TessVertex], evaluat
         let own = &mut out[(vertex - span.first) as usize..(end - span.first) as usize];
         let last = end - side.first - 1;
         for (first, out) in (vertex - side.first..).step_by(LANES).zip(own.chunks_mut(LANES)) {
-            evaluate_lanes(&row, first, last, evaluation, out);
+            if E::IS_PURE {
+                evaluate_lanes(&row, first, last, evaluation, out);
+            } else {
+                (first..).zip(out).for_each(|(index, out)| *out = evaluation.at(row.coordinates(index)));
+            }
         }
         vertex = end;
         if vertex < span.end {
@@ -84,7 +91,7 @@ const LANES: usize = 8;
 
 /// Vertices of a row from one on; beyond `last` they are it once more, and are not kept.
 #[inline(always)]
-fn evaluate_lanes(row: &Row, first: u32, last: u32, evaluation: &impl Evaluation, out: &mut [TessVertex]) {
+fn evaluate_lanes<E: Evaluation>(row: &Row, first: u32, last: u32, evaluation: &E, out: &mut [TessVertex]) {
     let (mut places, mut lanes) = ([[0; LANES]; 3], [[0.0; LANES]; 8]);
     for lane in 0..LANES {
         let index = first + lane as u32;
@@ -121,6 +128,8 @@ struct BuiltIn<'a> {
 }
 
 impl Evaluation for BuiltIn<'_> {
+    const IS_PURE: bool = true;
+
     #[inline(always)]
     fn at(&self, coordinates: [u32; 3]) -> TessVertex {
         evaluate(self.frame, self.patch, &self.surface, self.heights, coordinates)

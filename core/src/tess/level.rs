@@ -10,8 +10,6 @@ use crate::abi::{
 };
 use crate::num::{clamp, floor, mul, neg, round};
 
-/// Levels that differ from 1 by no more than this are 1: half a unit of a converted level.
-const NEARLY_ONE: f32 = 1.0 + 0.5 / TESS_UNIT as f32;
 /// The smallest level above 1.
 const BARELY_MORE: f32 = 1.0 + 1.0 / TESS_UNIT as f32;
 /// The largest level of an odd number of segments.
@@ -39,20 +37,20 @@ pub const fn convert(frame: &TessFrame, levels: &TessLevels) -> [u32; 6] {
         return [0; 6];
     }
     let [outer, inner] = level_counts(frame.domain);
-    // One level above 1 is enough for a patch to have an inside.
+    // One level above 1, as they are converted, is enough for a patch to have an inside.
     let mut is_divided = false;
     let mut words = [0; 6];
     let mut k = 0;
     while k < outer {
         let spacing = if is_line_count(frame.domain, k) { 0 } else { frame.spacing };
-        let level = clamped(spacing, levels.outer[k as usize], 1.0);
-        is_divided |= level > NEARLY_ONE;
-        words[k as usize] = word(frame, spacing, level);
+        words[k as usize] = word(frame, spacing, clamped(spacing, levels.outer[k as usize], 1.0));
+        is_divided |= is_above_one(words[k as usize]);
         k += 1;
     }
     let mut k = 0;
     while k < inner {
-        is_divided |= clamped(frame.spacing, levels.inner[k as usize], 1.0) > NEARLY_ONE;
+        let level = clamped(frame.spacing, levels.inner[k as usize], 1.0);
+        is_divided |= is_above_one(word(frame, frame.spacing, level));
         k += 1;
     }
     let least = if is_divided { BARELY_MORE } else { 1.0 };
@@ -63,6 +61,12 @@ pub const fn convert(frame: &TessFrame, levels: &TessLevels) -> [u32; 6] {
         k += 1;
     }
     words
+}
+
+/// Is a converted level above 1?
+#[inline(always)]
+const fn is_above_one(word: u32) -> bool {
+    word & LEVEL_FIXED > TESS_UNIT
 }
 
 /// The first level of isolines is how many there are, which are always spaced equally.

@@ -3,6 +3,8 @@
 //! Control runs once and says how large the mesh is. Then, as often as it takes: places for as many patches as there is room
 //! for, their vertices and indices, and whoever wants them is called.
 
+use core::ops::ControlFlow;
+
 use crate::abi::{
     Shared, TESS_BEZIER, TESS_GIVEN, TESS_ISOLINES, TESS_PN, TESS_TRIANGLES, TessFrame, TessLevels,
     TessPatch, TessRecord, TessTotals, TessVertex,
@@ -17,12 +19,16 @@ pub const MOST_VERTICES: u64 = 65 * 65;
 /// Primitives of the largest patch.
 pub const MOST_PRIMITIVES: u64 = 2 * 64 * 64;
 
+/// Most columns and rows of a height map.
+const MOST_TEXELS: u32 = 1 << 24;
+
 /// What is tessellated.
 #[derive(Clone, Copy, Debug)]
 pub struct TessInput<'a> {
     /// How; [`TessFrame::patch_count`] is set by the plan.
     pub frame: TessFrame,
-    /// The patches. Coordinates are up to 2⁴⁰ in magnitude, normals about 1 long, texture coordinates up to 2²⁰.
+    /// The patches. Coordinates are up to 2⁴⁰ in magnitude, normals about 1 long, texture coordinates up to 2²⁰. Lengths below
+    /// 2⁻²⁰ are taken for that where levels and PN triangles are found by lengths.
     pub patches: &'a [TessPatch],
     /// A level a patch with [`crate::abi::TESS_GIVEN`], else nothing.
     pub levels: &'a [TessLevels],
@@ -31,8 +37,9 @@ pub struct TessInput<'a> {
 }
 
 /// How a tessellation goes through a memory budget.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TessPlan {
+#[derive(Clone, Copy, Debug)]
+pub struct TessPlan<'a> {
+    input: &'a TessInput<'a>,
     frame: TessFrame,
     memory: u64,
 }
@@ -88,17 +95,17 @@ pub struct Chunk<'a, B> {
     pub before: u64,
 }
 
-impl TessPlan {
+impl<'a> TessPlan<'a> {
     /// A plan for an input, within `memory` bytes of the device's.
     ///
     /// # Errors
     /// [`PlanError::Tessellation`] if the input contradicts itself; [`PlanError::Budget`] if the memory is too small even
     /// patch by patch.
-    pub fn new(input: &TessInput<'_>, memory: u64) -> Result<Self, PlanError> {
+    pub fn new(input: &'a TessInput<'a>, memory: u64) -> Result<Self, PlanError> {
         check(input)?;
-        let plan =
-            Self { frame: TessFrame { patch_count: input.patches.len() as u32, ..input.frame }, memory };
-        let needed = plan.fixed_bytes(input) + bytes(plan.most());
+        let frame = TessFrame { patch_count: input.patches.len() as u32, ..input.frame };
+        let plan = Self { input, frame, memory };
+        let needed = plan.fixed_bytes() + bytes(plan.most());
         if memory < needed {
             return Err(PlanError::Budget { have: memory, needed });
         }
@@ -111,7 +118,8 @@ impl TessPlan {
     }
 
     /// Bytes of all buffers but those of the mesh.
-    const fn fixed_bytes(&self, input: &TessInput<'_>) -> u64 {
+    const fn fixed_bytes(&self) -> u64 {
+        let input = self.input;
         let patch = size_of::<TessPatch>() + size_of::<TessRecord>();
         let levels = size_of::<TessLevels>() * entries(input.levels.len()) as usize;
         (size_of::<TessFrame>()
@@ -125,11 +133,8 @@ impl TessPlan {
     ///
     /// # Errors
     /// What the device reports.
-    pub fn prepare<D: Device>(
-        &self,
-        device: &mut D,
-        input: &TessInput<'_>,
-    ) -> Result<TessBuffers<D::Buffer>, D::Error> {
+    pub fn prepare<D: Device>(&self, device: &mut D) -> Result<TessBuffers<D::Buffer>, D::Error> {
+        let input = self.input;
         let count = entries(input.patches.len());
         let frame = filled(device, "tess_frame", &[self.frame])?;
         let patches = filled(device, "tess_patches", input.patches)?;
@@ -143,7 +148,7 @@ impl TessPlan {
             &[&frame, &patches, &levels, &records],
         )?;
         let counts = self.count(device, [&frame, &records, &totals])?;
-        let rooms = self.rooms(device, input, counts);
+        let rooms = self.rooms(device, counts);
         let index_room = u64::from(rooms[1]) * u64::from(corners(&self.frame));
         let vertices = device.allocate("tess_vertices", TessVertex::LAYOUT, u64::from(rooms[0].max(1)))?;
         let indices = device.allocate("indices", u32::LAYOUT, index_room.max(1))?;
@@ -169,10 +174,10 @@ impl TessPlan {
     }
 
     /// How many vertices and primitives a chunk has at most: as memory allows, but no more than there are.
-    fn rooms<D: Device>(&self, device: &D, input: &TessInput<'_>, counts: TessCounts) -> [u32; 2] {
+    fn rooms<D: Device>(&self, device: &D, counts: TessCounts) -> [u32; 2] {
         let corners = u64::from(corners(&self.frame));
         let least = self.most();
-        let rest = self.memory - self.fixed_bytes(input);
+        let rest = self.memory - self.fixed_bytes();
         // As many times the largest patch as fit.
         let times = |kind: usize, entries: u64| {
             (least[kind] as u128 * rest as u128 / bytes(least) as u128).min(entries as u128) as u64
@@ -183,7 +188,8 @@ impl TessPlan {
         [limit(vertices, counts.vertices), limit(indices / corners, counts.primitives)]
     }
 
-    /// Tessellates; `each` is given chunk by chunk, in the order of the patches, and may read it or use it where it is.
+    /// Tessellates; `each` is given chunk by chunk, in the order of the patches, and may read it or use it where it is; it says
+    /// whether to go on.
     ///
     /// # Errors
     /// What the device reports, and what `each` does.
@@ -191,7 +197,7 @@ impl TessPlan {
         &self,
         device: &mut D,
         buffers: &TessBuffers<D::Buffer>,
-        mut each: impl FnMut(&mut D, &Chunk<'_, D::Buffer>) -> Result<(), D::Error>,
+        mut each: impl FnMut(&mut D, &Chunk<'_, D::Buffer>) -> Result<ControlFlow<()>, D::Error>,
     ) -> Result<TessCounts, D::Error> {
         let TessBuffers { frame, patches, heights, records, totals, vertices, indices, .. } = buffers;
         let mut counts = TessCounts { vertices: 0, primitives: 0, ..buffers.counts };
@@ -203,15 +209,18 @@ impl TessPlan {
                 let limit = device.max_buffer_bytes(TessVertex::LAYOUT);
                 return Err(PlanError::TooLarge { buffer, bytes, limit }.into());
             }
-            if chunk.pieces > 0 {
-                let all = [frame, patches, heights, records, totals, vertices, indices];
-                device.dispatch(Stage::TessEvaluate, Items::Count(chunk.pieces), &all)?;
-                each(device, &Chunk { vertices, indices, records, totals: chunk, before: counts.vertices })?;
-            }
+            let before = counts.vertices;
             counts.vertices += u64::from(chunk.vertices);
             counts.primitives += u64::from(chunk.primitives);
             counts.chunks += 1;
             first = chunk.end;
+            if chunk.pieces > 0 {
+                let all = [frame, patches, heights, records, totals, vertices, indices];
+                device.dispatch(Stage::TessEvaluate, Items::Count(chunk.pieces), &all)?;
+                if each(device, &Chunk { vertices, indices, records, totals: chunk, before })?.is_break() {
+                    break;
+                }
+            }
         }
         Ok(counts)
     }
@@ -266,12 +275,15 @@ fn check(input: &TessInput<'_>) -> Result<(), PlanError> {
             "Bézier patches that share an edge need not have the same normals there, so that heights would tear them apart",
         );
     }
-    if u64::from(columns) * u64::from(rows) != input.heights.len() as u64
-        || u32::try_from(input.heights.len()).is_err()
-    {
-        return wrong("there must be as many heights as the height map has columns times rows");
+    let is_even = (columns > 0) == (rows > 0) && columns <= MOST_TEXELS && rows <= MOST_TEXELS;
+    let heights = input.heights.len();
+    if !is_even || u64::from(columns) * u64::from(rows) != heights as u64 || u32::try_from(heights).is_err() {
+        return wrong(
+            "there must be as many heights as the height map has columns times rows, each of them at most 2^24",
+        );
     }
-    if (control == TESS_GIVEN) != (input.levels.len() == input.patches.len()) && !input.patches.is_empty() {
+    let wanted = if control == TESS_GIVEN { input.patches.len() } else { 0 };
+    if input.levels.len() != wanted {
         return wrong(
             "patches that have levels of their own need as many levels as there are patches, and others none",
         );

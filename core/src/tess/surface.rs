@@ -117,7 +117,7 @@ impl TessSurface {
         while corner < 4 {
             let n = self.normals[corner];
             let height = flush(dot3(flush3(minus(self.corners[corner], flat)), n));
-            lifts[corner] = scale3(n, mul(flush(height), weights[corner]));
+            lifts[corner] = scale3(n, mul(height, weights[corner]));
             corner += 1;
         }
         flush3(add3(flat, scale3(flush3(total(&lifts)), share)))

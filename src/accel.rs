@@ -1,0 +1,130 @@
+//! Trees over the triangles of a mesh, how good they are, and what they find.
+
+use std::path::Path;
+use std::time::Instant;
+
+use micropoly_core::accel::bounds::Bounds;
+use micropoly_core::accel::morton::Precision;
+use micropoly_core::accel::query::{Plane, in_frustum, is_visible};
+use micropoly_core::accel::tree::{Node, validate};
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+use crate::tess::TessSource;
+
+/// A tree as it was built.
+#[derive(Clone, Debug, Serialize)]
+pub struct Built {
+    /// Triangles of the mesh.
+    pub triangles: usize,
+    /// Nodes of the tree.
+    pub nodes: usize,
+    /// Bytes of nodes and parents.
+    pub bytes: usize,
+    /// Milliseconds, the shortest of all runs.
+    pub milliseconds: f64,
+    /// What a ray costs by the surface area heuristic (MacDonald & Booth 1990): boxes and triangles that it meets.
+    pub sah: f64,
+    /// Inner nodes on the longest way to a leaf.
+    pub depth: usize,
+}
+
+/// What a frustum sees.
+#[derive(Clone, Debug, Serialize)]
+pub struct Seen {
+    /// Triangles whose boxes may be in it.
+    pub visible: usize,
+    /// Milliseconds with the tree, the shortest of all runs.
+    pub milliseconds: f64,
+    /// Milliseconds box by box.
+    pub milliseconds_box_by_box: f64,
+}
+
+/// Boxes of the triangles of a mesh (`.obj`).
+///
+/// # Errors
+/// As [`TessSource::load`]; [`Error::Content`] if the file has no triangles.
+pub fn boxes(path: &Path) -> Result<Vec<Bounds>> {
+    let source = TessSource::load(path)?;
+    if source.is_bezier {
+        return Err(Error::content(path, "trees are built over triangles", "give an .obj file, or tessellate it first"));
+    }
+    Ok(source.patches.iter().map(|patch| Bounds::of(patch.points[..9].as_chunks::<3>().0)).collect())
+}
+
+/// Builds the tree `repeat` times on all cores; and checks it.
+///
+/// # Errors
+/// [`Error::Device`] if the threads cannot be started.
+#[cfg(feature = "cpu")]
+pub fn build(
+    boxes: &[Bounds],
+    precision: Precision,
+    repeat: u32,
+) -> Result<(micropoly_backend_cpu::Lbvh, Built)> {
+    let device = micropoly_backend_cpu::CpuDevice::new(0).map_err(|error| Error::on_device(&error))?;
+    let (mut tree, mut milliseconds) = (micropoly_backend_cpu::Lbvh::default(), f64::INFINITY);
+    for _ in 0..repeat.max(1) {
+        let start = Instant::now();
+        tree = device.build_lbvh(boxes, precision);
+        milliseconds = elapsed(start).min(milliseconds);
+    }
+    validate(&tree.nodes, &tree.parents, boxes, &mut vec![false; boxes.len()])
+        .map_err(|fault| Error::Device(format!("the tree is wrong: {fault:?}")))?;
+    let built = Built {
+        triangles: boxes.len(),
+        nodes: tree.nodes.len(),
+        bytes: tree.nodes.len() * (size_of::<Node>() + size_of::<u32>()),
+        milliseconds,
+        sah: sah(&tree.nodes),
+        depth: depth(&tree.nodes),
+    };
+    Ok((tree, built))
+}
+
+/// What of the tree is within all planes, which is compared with looking at every box.
+///
+/// # Errors
+/// [`Error::Device`] if that is not the same.
+pub fn query(nodes: &[Node], boxes: &[Bounds], planes: &[Plane], repeat: u32) -> Result<Seen> {
+    let (mut found, mut milliseconds, mut box_by_box) = (Vec::new(), f64::INFINITY, f64::INFINITY);
+    let mut wanted = Vec::new();
+    for _ in 0..repeat.max(1) {
+        found.clear();
+        let start = Instant::now();
+        in_frustum(nodes, planes, |primitive| found.push(primitive));
+        milliseconds = elapsed(start).min(milliseconds);
+        let start = Instant::now();
+        wanted = (0..).zip(boxes).filter(|(_, bounds)| is_visible(planes, bounds)).map(|(k, _)| k).collect();
+        box_by_box = elapsed(start).min(box_by_box);
+    }
+    found.sort_unstable();
+    if found != wanted {
+        return Err(Error::Device("the tree finds other triangles than there are".to_owned()));
+    }
+    Ok(Seen { visible: found.len(), milliseconds, milliseconds_box_by_box: box_by_box })
+}
+
+fn elapsed(start: Instant) -> f64 {
+    start.elapsed().as_secs_f64() * 1e3
+}
+
+/// Areas of all boxes, in shares of the root's.
+#[must_use]
+pub fn sah(nodes: &[Node]) -> f64 {
+    let Some(root) = nodes.first() else { return 0.0 };
+    let all: f64 = nodes.iter().map(|node| f64::from(node.bounds.half_area())).sum();
+    all / f64::from(root.bounds.half_area()).max(f64::MIN_POSITIVE)
+}
+
+fn depth(nodes: &[Node]) -> usize {
+    let (mut deepest, mut stack) = (0, vec![(0, 0)]);
+    while let Some((index, depth)) = stack.pop() {
+        let Some(node) = nodes.get(index as usize) else { break };
+        deepest = deepest.max(depth);
+        if !node.is_leaf() {
+            stack.extend([(node.first, depth + 1), (node.second, depth + 1)]);
+        }
+    }
+    deepest
+}
