@@ -1,14 +1,16 @@
-//! Trees over the triangles of a mesh, how good they are, and what they find.
+//! Trees over the triangles of a mesh, how good they are, and what they find: the linear hierarchy of
+//! [`micropoly_core::accel`], on the CPU.
 
-use std::path::Path;
 use std::time::Instant;
 
+use glam::DVec3;
 use micropoly_core::accel::bounds::Bounds;
 use micropoly_core::accel::morton::Precision;
 use micropoly_core::accel::query::{Plane, in_frustum, is_visible};
 use micropoly_core::accel::tree::{Node, validate};
 use serde::Serialize;
 
+use crate::Camera;
 use crate::error::{Error, Result};
 use crate::tess::TessSource;
 
@@ -40,23 +42,37 @@ pub struct Seen {
     pub milliseconds_box_by_box: f64,
 }
 
-/// Boxes of the triangles of a mesh (`.obj`).
-///
-/// # Errors
-/// As [`TessSource::load`]; [`Error::Content`] if the file has no triangles.
-pub fn boxes(path: &Path) -> Result<Vec<Bounds>> {
-    let source = TessSource::load(path)?;
-    if source.is_bezier {
-        return Err(Error::content(path, "trees are built over triangles", "give an .obj file, or tessellate it first"));
-    }
-    Ok(source.patches.iter().map(|patch| Bounds::of(patch.points[..9].as_chunks::<3>().0)).collect())
+/// Boxes of the triangles of a mesh.
+#[must_use]
+pub fn boxes(mesh: &TessSource) -> Vec<Bounds> {
+    mesh.patches.iter().map(|patch| Bounds::of(patch.points[..9].as_chunks::<3>().0)).collect()
+}
+
+/// What a camera sees in an image of this width, in heights: left, right, bottom, top, and before the near plane.
+#[must_use]
+pub fn frustum(camera: &Camera, width: f64) -> [Plane; 5] {
+    let high = 1.0 / (2.0 * camera.focal(1));
+    // In the space of the eye, which looks along -z.
+    let inwards = [
+        DVec3::new(1.0, 0.0, -width * high),
+        DVec3::new(-1.0, 0.0, -width * high),
+        DVec3::new(0.0, 1.0, -high),
+        DVec3::new(0.0, -1.0, -high),
+        DVec3::new(0.0, 0.0, -1.0),
+    ];
+    let mut planes = inwards.map(|normal| {
+        let turned = camera.view.matrix3.transpose() * normal;
+        let offset = normal.dot(camera.view.translation);
+        [turned.x as f32, turned.y as f32, turned.z as f32, offset as f32]
+    });
+    planes[4][3] -= camera.near as f32;
+    planes
 }
 
 /// Builds the tree `repeat` times on all cores; and checks it.
 ///
 /// # Errors
 /// [`Error::Device`] if the threads cannot be started.
-#[cfg(feature = "cpu")]
 pub fn build(
     boxes: &[Bounds],
     precision: Precision,

@@ -15,6 +15,8 @@
 //! This crate holds what a host needs around the kernels: scenes and their files, images, statistics and
 //! the choice of a device. The kernels and the plans that run them are in [`core`].
 
+#[cfg(feature = "cpu")]
+pub mod accel;
 mod backend;
 pub mod bench;
 pub mod bpt;

@@ -17,6 +17,8 @@ use micropoly::{
     Reading, RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
 };
 
+#[cfg(feature = "cpu")]
+use super::accel::AccelArguments;
 use super::eval::{BoundaryChoice, EvalArguments};
 use super::levels::LevelArguments;
 use super::progress::Progress;
@@ -48,6 +50,9 @@ pub(crate) enum Command {
     Eval(EvalArguments),
     /// Say what the tessellator makes of levels: lines of JSON in, lines of JSON out, to be compared with drivers.
     TessPattern(TessPatternArguments),
+    /// Build a tree over the triangles of a mesh, and ask it what is seen.
+    #[cfg(feature = "cpu")]
+    Accel(AccelArguments),
     /// Measure subdivision: scheduler × batch × scene × backend (Weber 2014, Table 7.2).
     Bench(BenchArguments),
 }
@@ -787,7 +792,7 @@ fn mesh_path(text: &str) -> Result<(PathBuf, Option<Format>), String> {
     }
 }
 
-fn resolution(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn resolution(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once(['x', 'X']).and_then(|(width, height)| {
         Some((width.trim().parse::<u32>().ok()?, height.trim().parse::<u32>().ok()?))
     });

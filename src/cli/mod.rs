@@ -9,6 +9,8 @@ macro_rules! say {
     };
 }
 
+#[cfg(feature = "cpu")]
+mod accel;
 mod args;
 mod bench;
 mod bench_cage;
@@ -55,6 +57,8 @@ pub(crate) fn main() -> ExitCode {
         },
         Command::Conform(arguments) => conform::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        #[cfg(feature = "cpu")]
+        Command::Accel(arguments) => accel::run(&arguments),
         Command::TessPattern(arguments) => tess_pattern::run(&arguments),
         Command::Bench(arguments) if arguments.tess => bench_tess::run(&arguments),
         Command::Bench(arguments) if arguments.cage => bench_cage::run(&arguments),
