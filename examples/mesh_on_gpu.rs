@@ -15,7 +15,7 @@ use micropoly::core::tessellate::MeshBuffers;
 use micropoly::{DeviceScene, FrameOptions, Image, Scene};
 use pollster::block_on;
 
-use gpu::{depth_test, fetched, texture};
+use gpu::{fetched, pipeline, texture};
 
 /// Positions are in the space of their objects, so each vertex looks up its object.
 const SHADER: &str = "
@@ -90,7 +90,7 @@ fn drawn(
     mesh: &MeshBuffers<WgpuBuffer>,
 ) -> Result<Image, Box<dyn Error>> {
     let Frame { width, height, .. } = seen.frame;
-    let pipeline = pipeline(device);
+    let pipeline = pipeline(device, SHADER, MeshVertex::LAYOUT.size, &ATTRIBUTES, None);
     let bindings = bindings(device, queue, &pipeline, seen);
     let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
     let picture = texture(device, size, wgpu::TextureFormat::Rgba8UnormSrgb);
@@ -127,39 +127,9 @@ fn drawn(
     fetched(device, queue, commands, &picture)
 }
 
-fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(SHADER.into()),
-    });
-    // Offsets are those of `MeshVertex`.
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32];
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("corner"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: MeshVertex::LAYOUT.size as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &attributes,
-            })],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(depth_test()),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("colour"),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::TextureFormat::Rgba8UnormSrgb.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
-}
+/// Offsets are those of `MeshVertex`.
+const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x2, 3 => Uint32];
 
 fn bindings(
     device: &wgpu::Device,

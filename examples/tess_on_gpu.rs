@@ -17,13 +17,16 @@ use micropoly::core::tess::stream::{Chunk, TessInput, TessPlan};
 use micropoly::tess::TessSource;
 use pollster::block_on;
 
-use gpu::{depth_test, fetched, texture};
+use gpu::{fetched, pipeline, texture};
 
 /// Pixels a side of the picture, and of a segment.
 const SIZE: u32 = 720;
 const PIXELS: f64 = 6.0;
 /// Bytes of vertices and indices on the GPU at any time, and of the patches.
 const MEMORY: u64 = 64 << 20;
+
+/// Offsets are those of `TessVertex`.
+const ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
 
 /// Evaluation: a point of the PN triangle, moved along its normal by where it is.
 const RIPPLES: &str = "
@@ -109,7 +112,8 @@ struct Painter {
 
 impl Painter {
     fn new(device: &wgpu::Device, queue: &wgpu::Queue, to_clip: DMat4) -> Self {
-        let pipeline = pipeline(device);
+        let back = Some(wgpu::Face::Back);
+        let pipeline = pipeline(device, SHADER, TessVertex::LAYOUT.size, &ATTRIBUTES, back);
         let columns = to_clip.as_mat4().to_cols_array();
         let view = device.create_buffer(&wgpu::BufferDescriptor {
             label: None,
@@ -170,38 +174,4 @@ impl Painter {
 fn kept<V>(is_first: bool, nothing: V) -> wgpu::Operations<V> {
     let load = if is_first { wgpu::LoadOp::Clear(nothing) } else { wgpu::LoadOp::Load };
     wgpu::Operations { load, store: wgpu::StoreOp::Store }
-}
-
-fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(SHADER.into()),
-    });
-    // Offsets are those of `TessVertex`.
-    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3];
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("corner"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: TessVertex::LAYOUT.size as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &attributes,
-            })],
-        },
-        primitive: wgpu::PrimitiveState { cull_mode: Some(wgpu::Face::Back), ..Default::default() },
-        depth_stencil: Some(depth_test()),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("colour"),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::TextureFormat::Rgba8UnormSrgb.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

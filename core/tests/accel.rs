@@ -4,6 +4,7 @@ use micropoly_core::accel::bounds::Bounds;
 use micropoly_core::accel::hierarchy::span;
 use micropoly_core::accel::morton::{Grid, Precision};
 use micropoly_core::accel::query::{Plane, in_frustum, is_visible};
+use micropoly_core::accel::ray::{Ray, counted, first_hit, nearer};
 use micropoly_core::accel::tree::{Fault, Node, fit, inner, node_count, validate};
 
 struct Tree {
@@ -143,4 +144,66 @@ fn a_frustum_finds_what_looking_at_every_box_does() {
         found_some += usize::from(!found.is_empty() && found.len() < count);
     }
     assert!(found_some > 50);
+}
+
+type Triangle = [[f32; 3]; 3];
+
+fn triangles(random: &mut fastrand::Rng, count: usize) -> Vec<Triangle> {
+    (0..count)
+        .map(|_| {
+            let place: [f32; 3] = std::array::from_fn(|_| 4.0 * random.f32() - 2.0);
+            std::array::from_fn(|_| place.map(|x| x + 0.6 * random.f32()))
+        })
+        .collect()
+}
+
+#[test]
+fn a_ray_hits_first_what_looking_at_every_triangle_says() {
+    let mut random = fastrand::Rng::with_seed(6);
+    let mut hits = 0;
+    for _ in 0..40 {
+        let count = random.usize(0..300);
+        let mut all = triangles(&mut random, count);
+        let twice = all.clone();
+        all.extend(twice); // of two in the same place the first counts
+        let tree = built(all.iter().map(|triangle| Bounds::of(triangle)).collect(), Precision::Bits30);
+        for k in 0..50 {
+            let mut any = || 6.0 * random.f32() - 3.0;
+            // Some along an axis, and some through a corner.
+            let direction = match (k % 5, all.first()) {
+                (0, _) => [0.0, 1.0, 0.0],
+                (1, Some(triangle)) => triangle[0],
+                _ => [any(), any(), any()],
+            };
+            let origin = if k % 5 == 1 { [0.0; 3] } else { [any(), any(), any()] };
+            let ray = Ray::new(origin, direction, 5.0);
+            let found = first_hit(&tree.nodes, &ray, |primitive| ray.hit(all[primitive as usize]));
+            let wanted = (0..).zip(&all).fold(None, |wanted, (primitive, triangle)| {
+                nearer(wanted, counted(&ray, &tree.boxes[primitive as usize], primitive, ray.hit(*triangle)))
+            });
+            assert_eq!(found, wanted);
+            hits += usize::from(found.is_some());
+        }
+    }
+    assert!(hits > 200, "{hits}");
+}
+
+#[test]
+fn hits_lie_on_the_triangle() {
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut hits = 0;
+    for triangle in triangles(&mut random, 3000) {
+        // Through a point of the triangle, or beside it.
+        let (u, v) = (1.5 * random.f32() - 0.25, 1.5 * random.f32() - 0.25);
+        let [a, b, c] = triangle;
+        let target: [f32; 3] = std::array::from_fn(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]));
+        let origin: [f32; 3] = std::array::from_fn(|_| 8.0 * random.f32() - 4.0);
+        let ray = Ray::new(origin, std::array::from_fn(|k| target[k] - origin[k]), 2.0);
+        let (hit, edge) = (ray.hit(triangle), u.min(v).min(1.0 - u - v));
+        if edge.abs() > 1.0e-3 {
+            assert!(hit.is_none_or(|t| edge > 0.0 && (t - 1.0).abs() < 1.0e-2), "{hit:?} {u} {v}");
+        }
+        hits += usize::from(hit.is_some() && edge > 0.0);
+    }
+    assert!(hits > 500, "{hits}");
 }

@@ -5,15 +5,49 @@ use std::error::Error;
 use micropoly::Image;
 use micropoly::backend_wgpu::wgpu;
 
-/// What is nearer has a larger depth.
-pub(crate) fn depth_test() -> wgpu::DepthStencilState {
-    wgpu::DepthStencilState {
-        format: wgpu::TextureFormat::Depth32Float,
-        depth_write_enabled: Some(true),
-        depth_compare: Some(wgpu::CompareFunction::Greater),
-        stencil: Default::default(),
-        bias: Default::default(),
-    }
+/// A pipeline that draws triangles; what is nearer has a larger depth. `shader` has the stages `corner` and `colour`.
+pub(crate) fn pipeline(
+    device: &wgpu::Device,
+    shader: &str,
+    vertex_bytes: usize,
+    attributes: &[wgpu::VertexAttribute],
+    culled: Option<wgpu::Face>,
+) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: None,
+        source: wgpu::ShaderSource::Wgsl(shader.into()),
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("corner"),
+            compilation_options: Default::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: vertex_bytes as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes,
+            })],
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: culled, ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: wgpu::TextureFormat::Depth32Float,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("colour"),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::TextureFormat::Rgba8UnormSrgb.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 /// A picture or a depth buffer that can be drawn to and fetched.

@@ -39,7 +39,7 @@ static float clamped(uint spacing, float level, float least) {
 }
 
 // The smallest integer not below a level.
-static uint neg_floor_neg(float level) {
+static uint rounded_up(float level) {
     return (uint)(-floor(neg(level)));
 }
 
@@ -48,7 +48,7 @@ static uint fixed_level(uint zero, float level) {
 }
 
 static uint level_word(__constant TessFrame *frame, uint spacing, float level) {
-    const uint zero = frame->zero, whole = neg_floor_neg(level);
+    const uint zero = frame->zero, whole = rounded_up(level);
     const bool is_equal = spacing != TESS_EVEN && spacing != TESS_ODD;
     const uint fixed = is_equal ? whole * TESS_UNIT : fixed_level(zero, level);
     const bool is_odd = is_equal ? (whole & 1u) != 0u : spacing == TESS_ODD;

@@ -83,12 +83,12 @@ fn word(spacing: u32, level: f32) -> u32 {
     if spacing == TESS_ODD {
         return (fixed(level) & LEVEL_FIXED) | LEVEL_ODD | rule;
     }
-    let whole = neg_floor_neg(level);
+    let whole = rounded_up(level);
     return ((whole * TESS_UNIT) & LEVEL_FIXED) | select(0u, LEVEL_ODD, (whole & 1u) != 0u) | rule;
 }
 
 // The smallest integer not below a level.
-fn neg_floor_neg(level: f32) -> u32 {
+fn rounded_up(level: f32) -> u32 {
     return u32(-floor(neg(level)));
 }
 

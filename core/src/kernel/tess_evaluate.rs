@@ -147,26 +147,21 @@ pub fn built_in(
     out: &mut [TessVertex],
 ) {
     // The same in all cases, but where the compiler knows the case it need not ask for every vertex.
-    let flat = TessFrame { columns: 0, ..*frame };
-    match (frame.domain, frame.evaluation, frame.columns) {
-        (TESS_TRIANGLES, TESS_LINEAR, 0) => {
-            let frame = TessFrame { domain: TESS_TRIANGLES, evaluation: TESS_LINEAR, ..flat };
-            all_vertices(&frame, patch, heights, topology, span, out);
-        }
-        (TESS_TRIANGLES, TESS_PN, 0) => {
-            let frame = TessFrame { domain: TESS_TRIANGLES, evaluation: TESS_PN, ..flat };
-            all_vertices(&frame, patch, heights, topology, span, out);
-        }
-        (TESS_TRIANGLES, TESS_PHONG, 0) => {
-            let frame = TessFrame { domain: TESS_TRIANGLES, evaluation: TESS_PHONG, ..flat };
-            all_vertices(&frame, patch, heights, topology, span, out);
-        }
-        (TESS_QUADS, TESS_BEZIER, 0) => {
-            let frame = TessFrame { domain: TESS_QUADS, evaluation: TESS_BEZIER, ..flat };
-            all_vertices(&frame, patch, heights, topology, span, out);
-        }
-        _ => all_vertices(frame, patch, heights, topology, span, out),
+    macro_rules! known {
+        ($($domain:ident $evaluation:ident),*) => {
+            match (frame.domain, frame.evaluation, frame.columns) {
+                $(($domain, $evaluation, 0) => {
+                    let frame = TessFrame { domain: $domain, evaluation: $evaluation, columns: 0, ..*frame };
+                    all_vertices(&frame, patch, heights, topology, span, out);
+                })*
+                _ => all_vertices(frame, patch, heights, topology, span, out),
+            }
+        };
     }
+    known!(
+        TESS_TRIANGLES TESS_LINEAR, TESS_TRIANGLES TESS_PN, TESS_TRIANGLES TESS_PHONG, TESS_QUADS TESS_LINEAR,
+        TESS_QUADS TESS_BEZIER
+    );
 }
 
 #[inline(always)]

@@ -110,7 +110,7 @@ const fn word(frame: &TessFrame, spacing: u32, level: f32) -> u32 {
         TESS_EVEN => (fixed(level), 0),
         TESS_ODD => (fixed(level), LEVEL_ODD),
         _ => {
-            let whole = neg_floor_neg(level);
+            let whole = rounded_up(level);
             (whole * TESS_UNIT, if whole & 1 > 0 { LEVEL_ODD } else { 0 })
         }
     };
@@ -120,7 +120,7 @@ const fn word(frame: &TessFrame, spacing: u32, level: f32) -> u32 {
 
 /// The smallest integer not below a level.
 #[inline(always)]
-const fn neg_floor_neg(level: f32) -> u32 {
+const fn rounded_up(level: f32) -> u32 {
     (-floor(neg(level))) as u32
 }
 
