@@ -241,7 +241,7 @@ static uint3 coordinates_of(Row row, uint index) {
 // A ring of two sides that lie on each other, and two that are its ends.
 static Run run_on_line(const Topology *topology, uint start, uint side, uint length) {
     const uint end = start + line_length(topology);
-    const uint place = topology->sides == 3u ? 0u : (side + 4u - line_side(topology)) % 4u;
+    const uint place = topology->sides == 3u ? 0u : (side - line_side(topology)) % 4u;
     switch (place) {
     case 0u: return new_run(start, 1u, length, start + length);
     case 1u: return new_run(end, 0u, length, end);

@@ -242,7 +242,7 @@ fn run(ring: u32, side: u32) -> Run {
 // A ring of two sides that lie on each other, and two that are its ends.
 fn run_on_line(start: u32, side: u32, length: u32) -> Run {
     let end = start + line();
-    let way = select((side + 4u - line_side()) % 4u, 0u, topology.sides == 3u);
+    let way = select((side - line_side()) % 4u, 0u, topology.sides == 3u);
     switch way {
         case 0u: { return Run(start, 1u, length, start + length); }
         case 1u: { return Run(end, 0u, length, end); }

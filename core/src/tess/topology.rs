@@ -301,7 +301,7 @@ impl Topology {
     #[inline(always)]
     const fn run_on_line(&self, start: u32, side: u32, length: u32) -> Run {
         let line = self.line();
-        let place = if self.sides == 3 { 0 } else { (side + 4 - self.line_side()) % 4 };
+        let place = if self.sides == 3 { 0 } else { side.wrapping_sub(self.line_side()) % 4 };
         match place {
             0 => Run { first: start, step: 1, length, end: start + length },
             1 => Run { first: start + line, step: 0, length, end: start + line },
