@@ -152,7 +152,7 @@ pub fn polygons(cage: &Cage) -> Result<Vec<BezierPatch>, PolygonError> {
 /// The triangles of all faces that are no holes, face by face, as numbers of corners of the mesh; no edge is divided.
 ///
 /// # Errors
-/// As [`polygons`].
+/// As [`polygons`], and [`PolygonError::Large`].
 pub fn triangles(mesh: &Cage) -> Result<Vec<[u32; 3]>, PolygonError> {
     check(mesh)?;
     let is_hole = holes(mesh)?;

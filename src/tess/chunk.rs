@@ -1,6 +1,6 @@
 //! A chunk of a tessellation in main memory.
 
-use core::ops::ControlFlow;
+use std::ops::ControlFlow;
 
 use micropoly_core::abi::{TessRecord, TessVertex};
 use micropoly_core::backend::Device;
@@ -80,7 +80,7 @@ pub fn count<D: Device>(device: &mut D, input: &TessInput<'_>, memory: u64) -> R
 pub(super) fn wait<D: Device>(
     device: &mut D,
     chunk: &Chunk<'_, D::Buffer>,
-) -> core::result::Result<ControlFlow<()>, D::Error> {
+) -> std::result::Result<ControlFlow<()>, D::Error> {
     device.read(chunk.vertices, 0, &mut [TessVertex::default()])?;
     Ok(ControlFlow::Continue(()))
 }
@@ -89,7 +89,7 @@ fn read<D: Device>(
     device: &mut D,
     chunk: &Chunk<'_, D::Buffer>,
     corners: usize,
-) -> core::result::Result<HostChunk, D::Error> {
+) -> std::result::Result<HostChunk, D::Error> {
     let totals = chunk.totals;
     let mut read = HostChunk {
         first: totals.first as usize,

@@ -238,7 +238,10 @@ impl Job for Tessellate<'_> {
             input,
             memory,
             |counts| outcome.borrow_mut().reserve(counts),
-            |chunk| outcome.borrow_mut().add(&chunk),
+            |chunk| {
+                outcome.borrow_mut().add(&chunk);
+                Ok(())
+            },
         )?;
         let seconds = start.elapsed().as_secs_f64();
         let mesh = Some(outcome.into_inner().finish(input.frame.columns > 0, is_textured));

@@ -30,7 +30,7 @@ impl Outcome {
     }
 
     /// Adds a chunk of triangles. A triangle two of whose corners are in the same place has collapsed and is left out.
-    pub(super) fn add(&mut self, chunk: &HostChunk) -> Result<()> {
+    pub(super) fn add(&mut self, chunk: &HostChunk) {
         let base = self.mesh.positions.len();
         for (patch, record) in (chunk.first..).zip(&chunk.records) {
             self.mesh.patches.extend((0..record.vertices).map(|_| patch as u32));
@@ -44,7 +44,6 @@ impl Outcome {
         };
         let triangles = chunk.indices.as_chunks::<3>().0.iter().filter(whole);
         self.mesh.triangles.extend(triangles.map(|triangle| triangle.map(|index| base as u32 + index)));
-        Ok(())
     }
 
     /// The mesh. Heights have turned its normals, and where Bézier patches collapse they have none: there they are the

@@ -161,7 +161,7 @@ fn wrong(name: &Path, line: usize, why: &str) -> Error {
     Error::format(name, line, why, remedy)
 }
 
-fn question(line: &str) -> core::result::Result<Question, String> {
+fn question(line: &str) -> std::result::Result<Question, String> {
     let question: Question = serde_json::from_str(line).map_err(|error| error.to_string())?;
     let counts = [question.outer.len() as u32, question.inner.len() as u32];
     let wanted = level_counts(question.domain.code());

@@ -60,13 +60,6 @@ impl Division {
         self.halves - self.odd
     }
 
-    /// Is there a segment in the middle?
-    #[inline(always)]
-    #[must_use]
-    pub const fn is_odd(&self) -> bool {
-        self.odd > 0
-    }
-
     /// Where point `point` of 0 ..= [`Division::segments`] lies, in units of 2⁻¹⁶.
     #[inline(always)]
     #[must_use]
