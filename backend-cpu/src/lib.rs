@@ -2,6 +2,7 @@
 //! rayon. There is no arithmetic here, so the bits are core's, whatever the number of threads.
 
 mod accel;
+mod bsp;
 mod buffer;
 mod device;
 mod draw;
@@ -12,6 +13,7 @@ mod stages;
 mod tessellate;
 
 pub use accel::Lbvh;
+pub use bsp::{BspError, BspGrid, BspOptions, BspOrder, Piece};
 pub use buffer::CpuBuffer;
 pub use device::{CpuDevice, CpuError};
 pub use tessellate::{Evaluate, Levels};

@@ -13,6 +13,7 @@
 //! primitives alone, not on who builds it in which order.
 
 pub mod bounds;
+pub mod bsp;
 pub mod hierarchy;
 pub mod morton;
 pub mod query;

@@ -1,0 +1,285 @@
+//! A tree in each cell: planes of triangles cut the parts of the others, until all of a node's own lie in its plane.
+
+use micropoly_core::accel::bsp::lattice::Point;
+use micropoly_core::accel::bsp::plane::{Plane, Rough};
+use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, clip, side};
+use micropoly_core::accel::bsp::rank::BspNode;
+use rayon::prelude::*;
+
+use super::cut::{Part, Parts};
+use super::{BspError, Piece};
+
+/// Cells that one thread works off in a row.
+const CELLS_AT_ONCE: usize = 64;
+/// A plane is judged by about so many parts.
+const JUDGES: usize = 128;
+/// A cut is as bad as so many parts more on one side than on the other.
+const CUT_COST: u32 = 6;
+
+/// What trees are built by.
+pub(super) struct Rules {
+    /// In units of the lattice.
+    pub(super) tolerance: f64,
+    pub(super) candidates: usize,
+    pub(super) most_pieces: u32,
+}
+
+/// Some trees, one after the other.
+#[derive(Default)]
+pub(super) struct Trees {
+    pub(super) nodes: Vec<BspNode>,
+    pub(super) pieces: Vec<Piece>,
+    pub(super) cuts: Vec<Cut>,
+}
+
+/// The trees of all cells.
+pub(super) struct Forest {
+    pub(super) all: Trees,
+    pub(super) first_nodes: Vec<u32>,
+    pub(super) first_pieces: Vec<u32>,
+}
+
+/// Those of some neighbouring cells, and how many nodes and pieces there were after each.
+type Grown = (Trees, Vec<(usize, usize)>);
+
+pub(super) fn build(
+    triangles: &[[Point; 3]],
+    planes: &[Plane],
+    parts: &Parts,
+    rules: &Rules,
+) -> Result<Forest, BspError> {
+    let cells: Vec<usize> = (0..parts.cells()).collect();
+    let grown: Result<Vec<Grown>, BspError> = cells
+        .par_chunks(CELLS_AT_ONCE)
+        .map(|cells| {
+            let mut gardener = Gardener::new(triangles, planes, rules);
+            let mut ends = Vec::with_capacity(cells.len());
+            for &cell in cells {
+                gardener.plant(parts, cell)?;
+                ends.push((gardener.trees.nodes.len(), gardener.trees.pieces.len()));
+            }
+            Ok((gardener.trees, ends))
+        })
+        .collect();
+    joined(grown?, rules)
+}
+
+/// All of them in one list.
+fn joined(grown: Vec<Grown>, rules: &Rules) -> Result<Forest, BspError> {
+    let pieces: usize = grown.iter().map(|(trees, _)| trees.pieces.len()).sum();
+    if pieces > rules.most_pieces as usize {
+        return Err(BspError::Pieces { most: rules.most_pieces });
+    }
+    let mut forest = Forest { all: Trees::default(), first_nodes: vec![0], first_pieces: vec![0] };
+    for (trees, ends) in grown {
+        let Forest { all, first_nodes, first_pieces } = &mut forest;
+        let (nodes, pieces, cuts) = (all.nodes.len(), all.pieces.len(), all.cuts.len() as u32);
+        first_nodes.extend(ends.iter().map(|(end, _)| (nodes + end) as u32));
+        first_pieces.extend(ends.iter().map(|(_, end)| (pieces + end) as u32));
+        all.nodes.extend_from_slice(&trees.nodes);
+        all.pieces.extend(trees.pieces.iter().map(|p| Piece { first_cut: p.first_cut + cuts, ..*p }));
+        all.cuts.extend_from_slice(&trees.cuts);
+    }
+    Ok(forest)
+}
+
+/// What a plane makes of a part.
+#[derive(Clone, Copy, PartialEq)]
+enum Verdict {
+    InPlane,
+    Before,
+    Behind,
+    Cut,
+}
+
+impl Verdict {
+    const fn of(before: bool, behind: bool) -> Self {
+        match (before, behind) {
+            (false, false) => Self::InPlane,
+            (true, false) => Self::Before,
+            (false, true) => Self::Behind,
+            (true, true) => Self::Cut,
+        }
+    }
+}
+
+/// Parts on one side of a node, at the end of the list of those that wait.
+struct Waiting {
+    first: usize,
+    parent: Option<usize>,
+}
+
+struct Gardener<'a> {
+    triangles: &'a [[Point; 3]],
+    planes: &'a [Plane],
+    rules: &'a Rules,
+    trees: Trees,
+    /// Of all parts of the cell in work.
+    corners: Vec<Corner>,
+    /// The part that is being cut, and its corners' sides.
+    piece: Vec<Corner>,
+    sides: Vec<i8>,
+}
+
+impl<'a> Gardener<'a> {
+    fn new(triangles: &'a [[Point; 3]], planes: &'a [Plane], rules: &'a Rules) -> Self {
+        let (corners, piece, sides) = (Vec::new(), Vec::new(), Vec::new());
+        Self { triangles, planes, rules, trees: Trees::default(), corners, piece, sides }
+    }
+
+    /// Adds the tree of a cell.
+    fn plant(&mut self, parts: &Parts, cell: usize) -> Result<(), BspError> {
+        let (mut waiting, mut now) = (Vec::new(), Vec::new());
+        let (mut before, mut behind) = (Vec::new(), Vec::new());
+        self.corners.clear();
+        parts.copy(cell, &mut waiting, &mut self.corners);
+        let root = self.trees.nodes.len();
+        let mut tasks = Vec::new();
+        if !waiting.is_empty() {
+            tasks.push(Waiting { first: 0, parent: None });
+        }
+        while let Some(Waiting { first, parent }) = tasks.pop() {
+            now.clear();
+            now.extend(waiting.drain(first..));
+            let node = self.trees.nodes.len();
+            if let Some(parent) = parent {
+                self.trees.nodes[parent].to_back = (node - parent) as u32;
+            }
+            self.divide(&now, &mut before, &mut behind);
+            if self.trees.pieces.len() + before.len() + behind.len() > self.rules.most_pieces as usize {
+                return Err(BspError::Pieces { most: self.rules.most_pieces });
+            }
+            // What is before the plane comes next.
+            for (parts, parent) in [(&mut behind, Some(node)), (&mut before, None)] {
+                if !parts.is_empty() {
+                    tasks.push(Waiting { first: waiting.len(), parent });
+                    waiting.append(parts);
+                }
+            }
+        }
+        self.count(root);
+        Ok(())
+    }
+
+    /// Makes a node of some parts; gives those on either side of it.
+    fn divide(&mut self, parts: &[Part], before: &mut Vec<Part>, behind: &mut Vec<Part>) {
+        let triangle = parts[self.choose(parts)].triangle;
+        let plane = self.planes[triangle as usize];
+        let rough = Rough::of(&plane);
+        let mut own = 0;
+        for part in parts {
+            match self.verdict(*part, triangle, &rough) {
+                Verdict::InPlane => {
+                    self.keep(*part);
+                    own += 1;
+                }
+                Verdict::Before => before.push(*part),
+                Verdict::Behind => behind.push(*part),
+                Verdict::Cut => {
+                    self.note(*part, &plane, &rough);
+                    before.push(self.clipped(*part, &plane, Cut::new(Cutter::Triangle(triangle), false)));
+                    behind.push(self.clipped(*part, &plane, Cut::new(Cutter::Triangle(triangle), true)));
+                }
+            }
+        }
+        let (front, back) = (before.len() as u32, behind.len() as u32);
+        self.trees.nodes.push(BspNode { triangle, own, front, back, to_back: 0 });
+    }
+
+    /// Which of some parts lies in the best plane of those that are tried.
+    fn choose(&self, parts: &[Part]) -> usize {
+        let tried = self.rules.candidates.min(parts.len());
+        if parts.len() < 2 {
+            return 0;
+        }
+        let candidates = (0..tried).map(|k| k * parts.len() / tried);
+        let mut best = (u32::MAX, 0);
+        for candidate in candidates {
+            let cost = self.cost(parts, parts[candidate].triangle, best.0);
+            if cost < best.0 {
+                best = (cost, candidate);
+            }
+        }
+        best.1
+    }
+
+    /// How bad a plane is, or at least `enough`.
+    fn cost(&self, parts: &[Part], triangle: u32, enough: u32) -> u32 {
+        let rough = Rough::of(&self.planes[triangle as usize]);
+        let (mut before, mut behind, mut cuts) = (0_u32, 0_u32, 0);
+        for part in parts.iter().step_by(parts.len().div_ceil(JUDGES)) {
+            match self.verdict(*part, triangle, &rough) {
+                Verdict::InPlane => {}
+                Verdict::Before => before += 1,
+                Verdict::Behind => behind += 1,
+                Verdict::Cut => cuts += CUT_COST,
+            }
+            if cuts >= enough {
+                return cuts;
+            }
+        }
+        cuts + before.abs_diff(behind)
+    }
+
+    fn verdict(&self, part: Part, triangle: u32, rough: &Rough) -> Verdict {
+        if part.triangle == triangle {
+            return Verdict::InPlane;
+        }
+        let piece = part.corners(&self.corners);
+        if self.rules.tolerance > 0.0 {
+            let near = rough.value_at(self.rules.tolerance);
+            let (before, behind) = piece.iter().fold((false, false), |(before, behind), corner| {
+                let value = rough.value(corner.at);
+                (before | (value > near), behind | (value < -near))
+            });
+            return Verdict::of(before, behind);
+        }
+        let (corners, plane) = (&self.triangles[part.triangle as usize], &self.planes[triangle as usize]);
+        let (mut before, mut behind) = (false, false);
+        for k in 0..piece.len() {
+            let side = side(corners, piece, k, plane, rough);
+            before |= side > 0;
+            behind |= side < 0;
+        }
+        Verdict::of(before, behind)
+    }
+
+    /// Notes a part that is to be cut, and on which sides of a plane its corners are.
+    fn note(&mut self, part: Part, plane: &Plane, rough: &Rough) {
+        let triangle = &self.triangles[part.triangle as usize];
+        self.piece.clear();
+        self.piece.extend_from_slice(part.corners(&self.corners));
+        self.sides.clear();
+        self.sides.extend((0..self.piece.len()).map(|k| side(triangle, &self.piece, k, plane, rough) as i8));
+    }
+
+    /// What a cut keeps of the part that was noted.
+    fn clipped(&mut self, part: Part, plane: &Plane, cut: Cut) -> Part {
+        let (triangle, first) = (&self.triangles[part.triangle as usize], self.corners.len());
+        let corners = &mut self.corners;
+        clip(triangle, &self.piece, &self.sides, plane, cut, |corner| corners.push(corner));
+        Part { first: first as u32, count: (self.corners.len() - first) as u32, ..part }
+    }
+
+    /// A part becomes a piece.
+    fn keep(&mut self, part: Part) {
+        let Trees { pieces, cuts, .. } = &mut self.trees;
+        pieces.push(Piece { triangle: part.triangle, first_cut: cuts.len() as u32 });
+        let made = part.corners(&self.corners).iter().map(|corner| corner.cut);
+        cuts.extend(made.filter(|cut| *cut != Cut::NONE));
+    }
+
+    /// Counts what is on either side of the nodes from `root` on; so far each knows whether there is anything.
+    fn count(&mut self, root: usize) {
+        let nodes = &mut self.trees.nodes;
+        let all = |node: &BspNode| node.own + node.front + node.back;
+        for k in (root..nodes.len()).rev() {
+            if nodes[k].front > 0 {
+                nodes[k].front = all(&nodes[k + 1]);
+            }
+            if nodes[k].back > 0 {
+                nodes[k].back = all(&nodes[k + nodes[k].to_back as usize]);
+            }
+        }
+    }
+}

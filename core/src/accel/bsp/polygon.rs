@@ -1,0 +1,151 @@
+//! A convex piece of a triangle, and what a plane makes of it.
+//!
+//! A place in a triangle has three weights, one a corner. A plane's values at the three corners are a line there: weights
+//! `w` with `values · w = 0`. So a piece is a ring of lines, and its corners, where two of them meet, are cross products:
+//! nothing is rounded, however often a piece is cut.
+
+use super::exact::{cross, dot_sign};
+use super::lattice::Point;
+use super::plane::{Plane, Rough};
+
+/// A corner of a piece that is no corner of its triangle.
+const MADE: u32 = 3;
+
+/// A corner of a piece, and its side from there to the next one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Where it is, in units of the lattice, to 2⁻³⁰ of them.
+    pub at: [f64; 3],
+    /// The line that the side is on; inside is where it is above 0.
+    pub line: [i64; 3],
+    /// What made the side; [`Cut::NONE`] if it is the triangle's.
+    pub cut: Cut,
+    /// Which corner of the triangle it is; 3 if none.
+    vertex: u32,
+}
+
+/// A plane that cuts, and which side of it is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cut(pub u32);
+
+/// What a cut's plane is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cutter {
+    /// That of a triangle.
+    Triangle(u32),
+    /// That behind a slab of cells along an axis.
+    Slab {
+        /// 0 to 2.
+        axis: usize,
+        /// Which slab.
+        slab: u32,
+    },
+}
+
+const SLABS: u32 = 1 << 31;
+const AXIS_SHIFT: u32 = 28;
+/// Most triangles and slabs that cuts can name.
+pub const MOST_TRIANGLES: u32 = 1 << 30;
+/// Most slabs of cells along an axis.
+pub const MOST_SLABS: u32 = 1 << 10;
+
+impl Cut {
+    /// No cut.
+    pub const NONE: Self = Self(u32::MAX);
+
+    /// Of a plane; is its back kept?
+    #[must_use]
+    pub const fn new(cutter: Cutter, keeps_back: bool) -> Self {
+        let code = match cutter {
+            Cutter::Triangle(triangle) => triangle << 1,
+            Cutter::Slab { axis, slab } => SLABS | (axis as u32) << AXIS_SHIFT | slab << 1,
+        };
+        Self(code | keeps_back as u32)
+    }
+
+    /// Is the back of the plane kept?
+    #[must_use]
+    pub const fn keeps_back(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    /// Which plane it is.
+    #[must_use]
+    pub const fn cutter(self) -> Cutter {
+        if self.0 & SLABS == 0 {
+            return Cutter::Triangle(self.0 >> 1);
+        }
+        let axis = (self.0 >> AXIS_SHIFT & 3) as usize;
+        Cutter::Slab { axis, slab: (self.0 & ((1 << AXIS_SHIFT) - 1)) >> 1 }
+    }
+}
+
+/// All of a triangle.
+#[must_use]
+pub fn whole(triangle: &[Point; 3]) -> [Corner; 3] {
+    core::array::from_fn(|k| {
+        let mut line = [0; 3];
+        line[(k + 2) % 3] = 1; // the side to the next corner is where the last one weighs nothing
+        Corner { at: triangle[k].map(f64::from), line, cut: Cut::NONE, vertex: k as u32 }
+    })
+}
+
+/// On which side of a plane corner `k` of a piece is: 1 before it, -1 behind it, 0 on it.
+#[inline]
+#[must_use]
+pub fn side(triangle: &[Point; 3], piece: &[Corner], k: usize, plane: &Plane, rough: &Rough) -> i32 {
+    let corner = &piece[k];
+    if let Some(sign) = rough.sign(rough.value(corner.at)) {
+        return sign;
+    }
+    if corner.vertex < MADE {
+        return plane.value(triangle[corner.vertex as usize]).signum() as i32;
+    }
+    let before = if k == 0 { piece.len() - 1 } else { k - 1 };
+    let weights = cross(piece[before].line, corner.line);
+    dot_sign(weights, plane.values(*triangle)) * sign_of(weights)
+}
+
+/// The sign that weights of a place in the triangle have in common.
+#[inline(always)]
+const fn sign_of(weights: [i128; 3]) -> i32 {
+    let is_below = weights[0] < 0 || weights[1] < 0 || weights[2] < 0;
+    if is_below { -1 } else { 1 }
+}
+
+/// Tells what of a piece is on the side of a plane that a cut keeps; `sides` are those of its corners, of which some are on
+/// that side and some on the other one.
+pub fn clip(
+    triangle: &[Point; 3],
+    piece: &[Corner],
+    sides: &[i8],
+    plane: &Plane,
+    cut: Cut,
+    mut tell: impl FnMut(Corner),
+) {
+    let way = if cut.keeps_back() { -1 } else { 1 };
+    let line = plane.values(*triangle).map(|value| value * i64::from(way));
+    for (k, corner) in piece.iter().enumerate() {
+        let next = if k + 1 == piece.len() { 0 } else { k + 1 };
+        let (here, there) = (i32::from(sides[k]) * way, i32::from(sides[next]) * way);
+        if here <= 0 && there <= 0 {
+            continue;
+        }
+        let meeting = || Corner { at: meet(triangle, corner.line, line), vertex: MADE, ..*corner };
+        tell(if here < 0 { meeting() } else { *corner });
+        if there <= 0 {
+            let end = if there == 0 { piece[next] } else { meeting() };
+            tell(Corner { line, cut, ..end });
+        }
+    }
+}
+
+/// Where two lines meet, which is in the triangle. All weights have one sign, so nothing cancels.
+fn meet(triangle: &[Point; 3], a: [i64; 3], b: [i64; 3]) -> [f64; 3] {
+    let weights = cross(a, b).map(|weight| (weight as f64).abs());
+    let all = weights[0] + weights[1] + weights[2];
+    core::array::from_fn(|axis| {
+        let [a, b, c] = triangle.map(|corner| f64::from(corner[axis]));
+        (a * weights[0] + b * weights[1] + c * weights[2]) / all
+    })
+}
