@@ -54,6 +54,7 @@ fn shape_of(path: &Path, file: Obj, reading: &Reading, progress: ReadProgress<'_
         None => Shape::default(),
     };
     let surfaces = surfaces(path, &file.surfaces)?;
+    shape.is_polygons &= surfaces.patch_count() == 0;
     shape.bezier.extend(surfaces.bezier);
     shape.rational = surfaces.rational;
     if shape.patch_count() == 0 {
@@ -77,7 +78,7 @@ fn of_cage(path: &Path, cage: &Cage, reading: &Reading, progress: ReadProgress<'
 }
 
 fn polygons(path: &Path, cage: &Cage) -> Result<Shape> {
-    polygon::polygons(cage).map(Shape::of_bezier).map_err(|error| {
+    polygon::polygons(cage).map(Shape::of_polygons).map_err(|error| {
         let line = error.face().and_then(|face| cage.face_lines.get(face)).map_or(1, |line| *line as usize);
         Error::format(path, line, error.to_string(), "triangulate the face, or repair it")
     })

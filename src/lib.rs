@@ -38,6 +38,8 @@ pub mod mesh;
 pub mod mscene;
 pub mod nurbs;
 pub mod obj;
+#[cfg_attr(not(feature = "cpu"), path = "order_without.rs")]
+mod order;
 mod passes;
 mod path;
 mod picture;
@@ -74,7 +76,9 @@ pub use crate::gregory::GregoryPatch;
 pub use crate::image::Image;
 pub use crate::path::{CameraKey, CameraPath};
 pub use crate::picture::{Picture, extension};
-pub use crate::render::{Batch, Progress, RenderOptions, Rendering, render_on, sizes_for};
+pub use crate::render::{
+    Batch, Ordering, Progress, RenderOptions, Rendering, Transparency, render_on, sizes_for,
+};
 pub use crate::scene::{DeviceScene, Motion, Scene, SceneObject};
 pub use crate::shape::{BezierPatch, HalfSide, RationalPatch, Shape};
 pub use crate::shot::{Blur, Lens, Shot};

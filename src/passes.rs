@@ -1,8 +1,9 @@
 //! An image in passes: parts of it, one after the other, so that all samples of a part fit the memory; for each of them
 //! layers, while something can be seen through; for each layer the moments of a blurred image.
 
-use micropoly_core::abi::{Frame, Object, Tap};
+use micropoly_core::abi::{Colour, FLAG_LAYERS, Frame, Object, Sample, Tap};
 use micropoly_core::backend::Device;
+use micropoly_core::camera::Camera;
 use micropoly_core::error::PlanError;
 use micropoly_core::memory::{Area, Room, Sizes};
 use micropoly_core::pattern::{Region, Samples, Tuple, Window, tuples};
@@ -12,7 +13,8 @@ use micropoly_core::stage::Extent;
 
 use crate::canvas::Canvas;
 use crate::error::{Error, Result};
-use crate::render::{Progress, RenderOptions, Subject, chosen_sizes, note_on, room_on};
+use crate::order::Ordered;
+use crate::render::{Progress, RenderOptions, Subject, Transparency, chosen_sizes, note_on, room_on};
 use crate::scene::Scene;
 
 /// Samples of a part of the image, about: enough for any device to be busy, few enough to stay in a CPU's last cache.
@@ -31,6 +33,8 @@ pub(crate) struct Passes<'a> {
     /// One view, or one a tuple.
     pub(crate) views: Vec<(Frame, Vec<Object>)>,
     tuples: Vec<Tuple>,
+    /// Camera and time of each view, if its triangles are to be put into order.
+    moments: Vec<(Camera, f64)>,
     taps: Vec<Tap>,
 }
 
@@ -49,11 +53,28 @@ impl<'a> Passes<'a> {
         let sharp = [(0.0, [0.0; 2])];
         let moments: Vec<(f64, [f64; 2])> = tuples.iter().map(|tuple| (tuple.time, tuple.lens)).collect();
         let moments = if moments.is_empty() { &sharp[..] } else { &moments };
+        let is_ordered = options.transparency != Transparency::Layers;
         let mut views = Vec::with_capacity(moments.len());
+        let mut ordered = Vec::new();
         for moment in moments {
-            views.push(shot.view(scene, &options.frame, &blur, *moment)?);
+            let (mut frame, objects) = shot.view(scene, &options.frame, &blur, *moment)?;
+            if is_ordered {
+                frame.flags |= FLAG_LAYERS;
+                ordered.push(shot.moment(scene, &blur, *moment)?);
+            }
+            views.push((frame, objects));
         }
-        Ok(Self { scene, options, window, views, tuples, taps: taps(options)? })
+        Ok(Self { scene, options, window, views, tuples, moments: ordered, taps: taps(options)? })
+    }
+
+    /// The scene's triangles at the first moment, if they are to be put into order.
+    pub(crate) fn order(&self) -> Result<Option<Ordered>> {
+        let (Transparency::Order(ordering), Some((_, time))) =
+            (self.options.transparency, self.moments.first())
+        else {
+            return Ok(None);
+        };
+        Ordered::new(self.scene, *time, ordering, self.options.threads).map(Some)
     }
 
     fn samples(&self) -> Samples {
@@ -116,6 +137,7 @@ impl<'a> Passes<'a> {
         plan: &FramePlan,
         buffers: &mut Buffers<D::Buffer>,
         regions: &[Region],
+        order: &mut Option<Ordered>,
         canvas: &mut Canvas,
         mut progress: impl FnMut(&Progress<'_>),
     ) -> Result<Counts> {
@@ -128,11 +150,12 @@ impl<'a> Passes<'a> {
             if index > 0 {
                 plan.clear(device, buffers).map_err(failed)?; // new buffers are clear
             }
-            loop {
-                counts = counts.and(self.layer(device, plan, buffers, *region, &mut inner).map_err(failed)?);
-                if !self.scene.is_transparent() || !plan.blend(device, buffers).map_err(failed)? {
-                    break;
-                }
+            if let Some(order) = order {
+                let (front, layers) = self.in_order(order, *region)?;
+                plan.take_layers(device, buffers, &front, &layers).map_err(failed)?;
+                inner(1.0, &counts);
+            } else {
+                counts = counts.and(self.layers(device, plan, buffers, *region, &mut inner).map_err(failed)?);
             }
             let whole = self.frame(*region);
             let aimed = plan.aimed(device, buffers, whole, &self.views[0].1).map_err(failed)?;
@@ -140,6 +163,38 @@ impl<'a> Passes<'a> {
             canvas.take(device, &buffers.pixels, region.shown).map_err(failed)?;
         }
         Ok(counts)
+    }
+
+    /// Blends the triangles of a part of the image: in one view, or in all.
+    fn in_order(&self, order: &mut Ordered, region: Region) -> Result<(Vec<Sample>, Vec<Colour>)> {
+        let count = self.frame(region).sample_count() as usize;
+        let (mut front, mut layers) = (vec![Sample::default(); count], vec![Colour::default(); count]);
+        for (index, ((view, objects), (camera, time))) in self.views.iter().zip(&self.moments).enumerate() {
+            order.move_to(self.scene, *time)?;
+            let whole = self.frame_in(view, region);
+            let tuple = self.tuples.get(index);
+            let frame = tuple.map_or(whole, |tuple| whole.with_tuple(self.samples(), *tuple));
+            order.draw(camera, &frame, objects, (&mut front, &mut layers))?;
+        }
+        Ok((front, layers))
+    }
+
+    /// Finds all layers of a part of the image, one after the other.
+    fn layers<D: Device>(
+        &self,
+        device: &mut D,
+        plan: &FramePlan,
+        buffers: &mut Buffers<D::Buffer>,
+        region: Region,
+        progress: &mut impl FnMut(f64, &Counts),
+    ) -> std::result::Result<Counts, D::Error> {
+        let mut counts = Counts::default();
+        loop {
+            counts = counts.and(self.layer(device, plan, buffers, region, progress)?);
+            if !self.scene.is_transparent() || !plan.blend(device, buffers)? {
+                return Ok(counts);
+            }
+        }
     }
 
     /// Finds one layer of a part of the image: once, or at all moments.

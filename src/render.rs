@@ -17,6 +17,7 @@ use crate::canvas::Canvas;
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::image::Image;
+use crate::order::Ordered;
 use crate::passes::Passes;
 use crate::scene::Scene;
 use crate::shot::{Blur, Shot};
@@ -48,6 +49,25 @@ impl Default for Batch {
     }
 }
 
+/// How what can be seen through is put into order.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Transparency {
+    /// Sample by sample, a layer after the other: exact for everything.
+    #[default]
+    Layers,
+    /// All triangles at once, in one pass: only polygons, which may cut each other.
+    Order(Ordering),
+}
+
+/// How triangles are sorted (see [`micropoly_core::accel::bsp`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ordering {
+    /// Cells of the grid along each axis, if they are not to be chosen from the scene.
+    pub grid: Option<u32>,
+    /// Triangles are not cut that reach beyond a plane by no more than this share of the scene's longest side; 0 is exact.
+    pub tolerance: f64,
+}
+
 /// Everything that can be chosen about a rendering.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderOptions {
@@ -61,6 +81,8 @@ pub struct RenderOptions {
     pub filter: Filter,
     /// Shutter and lens, if not the scene's own.
     pub blur: Option<Blur>,
+    /// How what can be seen through is put into order.
+    pub transparency: Transparency,
     /// The part of the image that is wanted, if not all of it: the same pixels as without.
     pub crop: Option<Window>,
     /// Batch size or memory budget. The image does not depend on it.
@@ -171,13 +193,15 @@ pub(crate) fn render_from<D: Device>(
     let start = Instant::now();
     let scene = subject.scene;
     let job = Passes::new(subject, options)?;
-    let (plan, regions, notes) = job.plan_on(device)?;
+    let (plan, regions, mut notes) = job.plan_on(device)?;
+    let mut order = job.order()?;
+    notes.extend(order.as_ref().map(Ordered::note));
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::on_device(&error);
     let mut buffers = plan.prepare(&mut device, &job.views[0].1, subject.patches).map_err(failed)?;
     let setup = start.elapsed().as_secs_f64();
     let mut canvas = Canvas::new(job.window, scene.background, options.film);
-    let counts = job.run(&mut device, &plan, &mut buffers, &regions, &mut canvas, progress)?;
+    let counts = job.run(&mut device, &plan, &mut buffers, &regions, &mut order, &mut canvas, progress)?;
     let resolving = Instant::now();
     let bytes_allocated = device.bytes_allocated();
     let film = options.film.then(|| canvas.film(subject, &options.frame)).transpose()?;

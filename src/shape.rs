@@ -63,6 +63,8 @@ pub struct Shape {
     pub gregory: Vec<GregoryPatch>,
     /// Which sides of Bézier patches are halves of others.
     pub halves: Vec<HalfSide>,
+    /// Are all patches polygons with three or four corners, those of three with the last one twice?
+    pub is_polygons: bool,
 }
 
 impl Shape {
@@ -70,6 +72,12 @@ impl Shape {
     #[must_use]
     pub fn of_bezier(bezier: Vec<BezierPatch>) -> Self {
         Self { bezier, ..Self::default() }
+    }
+
+    /// Of polygons (see [`crate::polygon::polygons`]).
+    #[must_use]
+    pub fn of_polygons(bezier: Vec<BezierPatch>) -> Self {
+        Self { bezier, is_polygons: true, ..Self::default() }
     }
 
     /// Of Gregory patches.

@@ -111,10 +111,23 @@ impl Shot {
         blur: &Blur,
         (time, lens): (f64, [f64; 2]),
     ) -> Result<(Frame, Vec<Object>)> {
+        let (camera, now) = self.moment(scene, blur, (time, lens))?;
+        scene.view(&camera, now, options)
+    }
+
+    /// The camera of such a view, and the frame.
+    ///
+    /// # Errors
+    /// As [`Shot::camera`].
+    pub(crate) fn moment(
+        &self,
+        scene: &Scene,
+        blur: &Blur,
+        (time, lens): (f64, [f64; 2]),
+    ) -> Result<(Camera, f64)> {
         let now = self.time + blur.shutter * time;
         let camera = self.camera(scene, now)?;
-        let camera = blur.lens.map_or(camera, |thin| through(&camera, thin, blur.sensor, lens));
-        scene.view(&camera, now, options)
+        Ok((blur.lens.map_or(camera, |thin| through(&camera, thin, blur.sensor, lens)), now))
     }
 }
 

@@ -5,9 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use micropoly::cage::generate::{Layout, torus_cage};
-use micropoly::core::accel::bsp::cells::slab_plane;
 use micropoly::core::accel::bsp::lattice::Point;
-use micropoly::core::accel::bsp::polygon::{Cut, Cutter};
 use micropoly::core::accel::bsp::sight::{Sight, View};
 use micropoly::tess::TessSource;
 use micropoly_backend_cpu::{BspError, BspGrid, BspOptions, BspOrder, CpuDevice};
@@ -118,19 +116,10 @@ fn ordered_hits(grid: &BspGrid, order: &[u32], view: &View, [x, y]: [i32; 2]) ->
     let is_seen = |piece: u32| {
         let triangle = grid.pieces[piece as usize].triangle as usize;
         let (Some(hit), Some(sight)) = (hits[triangle], &sights[triangle]) else { return false };
-        grid.cuts_of(piece).iter().all(|cut| sight.is_within(hit, line(grid, triangle, *cut)))
+        grid.cuts_of(piece).iter().all(|cut| sight.is_within(hit, grid.line(triangle, *cut)))
     };
     let seen = order.iter().filter(|piece| is_seen(**piece));
     seen.map(|piece| grid.pieces[*piece as usize].triangle).collect()
-}
-
-fn line(grid: &BspGrid, triangle: usize, cut: Cut) -> [i64; 3] {
-    let plane = match cut.cutter() {
-        Cutter::Triangle(cutter) => grid.planes[cutter as usize],
-        Cutter::Slab { axis, slab } => slab_plane(&grid.slabs[axis], axis, slab),
-    };
-    let way = if cut.keeps_back() { -1 } else { 1 };
-    plane.values(grid.triangles[triangle]).map(|value| value * way)
 }
 
 /// A view from an eye in some direction.

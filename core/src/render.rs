@@ -275,6 +275,21 @@ impl FramePlan {
         Ok(more != [0])
     }
 
+    /// Takes samples that were blended elsewhere: the first layer of each, and the colour of all layers.
+    ///
+    /// # Errors
+    /// What the device reports.
+    pub fn take_layers<D: Device>(
+        &self,
+        device: &mut D,
+        b: &Buffers<D::Buffer>,
+        front: &[Sample],
+        layers: &[Colour],
+    ) -> Result<(), D::Error> {
+        device.write(&b.front, front)?;
+        device.write(&b.layers, layers)
+    }
+
     /// Filters all samples of the frame, or if it has layers what became of them, into `buffers.pixels`.
     ///
     /// # Errors

@@ -8,13 +8,14 @@ use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum, value_parser};
 use micropoly::bench::Views;
 use micropoly::cage::{MOST_LEVELS, Options};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
+use micropoly::core::accel::bsp::polygon::MOST_SLABS;
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
 use micropoly::core::reconstruction::{MAX_RADIUS, MIN_RADIUS};
 use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
 use micropoly::{
-    Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Oracle, Profile, Rasteriser,
-    Reading, RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
+    Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Oracle, Ordering, Profile,
+    Rasteriser, Reading, RenderOptions, Samples, Scene, Scheduler, Shading, Transparency, Window, extension,
 };
 
 #[cfg(feature = "cpu")]
@@ -134,6 +135,8 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "DISTANCE", value_parser = above_zero)]
     focus: Option<f64>,
     #[command(flatten)]
+    transparency: TransparencyArguments,
+    #[command(flatten)]
     pub(crate) frame: FrameArguments,
     /// Write statistics as JSON to this file; - writes to standard output.
     #[arg(long, value_name = "FILE")]
@@ -154,7 +157,15 @@ impl RenderArguments {
         let (device, crop) = (self.device.clone(), self.crop);
         let filter = Filter::of(self.filter.into());
         let filter = Filter { radius: self.filter_radius.unwrap_or(filter.radius), ..filter };
-        RenderOptions { backend: self.backend.into(), device, crop, filter, ..self.frame.options() }
+        let transparency = self.transparency.chosen();
+        RenderOptions {
+            backend: self.backend.into(),
+            device,
+            crop,
+            filter,
+            transparency,
+            ..self.frame.options()
+        }
     }
 
     /// Shutter and lens: the scene's own, but for what was given.
@@ -172,6 +183,42 @@ impl RenderArguments {
         };
         Ok(Blur { shutter: self.shutter.unwrap_or(own.shutter), lens, ..own })
     }
+}
+
+/// How what can be seen through is put into order.
+#[derive(Debug, Args)]
+struct TransparencyArguments {
+    /// Layers are found sample by sample, as many passes as there are layers; order sorts the triangles of meshes drawn as
+    /// polygons once and blends them in one pass.
+    #[arg(long, value_enum, default_value_t = TransparencyChoice::Layers)]
+    transparency: TransparencyChoice,
+    /// Cells along each axis of the grid for --transparency order. The image does not depend on it. [default: chosen from
+    /// the number of triangles]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(MOST_SLABS)))]
+    bsp_grid: Option<u32>,
+    /// Do not cut triangles that reach beyond a plane by no more than this share of the scene's longest side: faster, and no
+    /// longer exact.
+    #[arg(long, value_name = "SHARE", default_value = "0", value_parser = from_zero)]
+    bsp_tolerance: f64,
+}
+
+impl TransparencyArguments {
+    fn chosen(&self) -> Transparency {
+        match self.transparency {
+            TransparencyChoice::Layers => Transparency::Layers,
+            TransparencyChoice::Order => {
+                Transparency::Order(Ordering { grid: self.bsp_grid, tolerance: self.bsp_tolerance })
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TransparencyChoice {
+    /// Whatever there is to see.
+    Layers,
+    /// Triangle meshes.
+    Order,
 }
 
 #[derive(Debug, Args)]

@@ -5,22 +5,25 @@
 //! | triangles are cut into the cells of a grid | `cut.rs` |
 //! | a tree in each cell | `tree.rs` |
 //! | the order of all pieces for an eye | `sort.rs` |
+//! | samples that blend them in that order | `draw.rs` |
 //!
 //! All lists are counted, summed up and filled, or grow; nothing is dropped. What is built does not depend on the number of
 //! threads.
 
 mod cut;
+mod draw;
 mod sort;
 mod tree;
 
 use micropoly_core::accel::bounds::Bounds;
-use micropoly_core::accel::bsp::cells::slab_end;
+use micropoly_core::accel::bsp::cells::{slab_end, slab_plane};
 use micropoly_core::accel::bsp::lattice::{Lattice, Point};
 use micropoly_core::accel::bsp::plane::Plane;
-use micropoly_core::accel::bsp::polygon::{Cut, MOST_SLABS, MOST_TRIANGLES};
+use micropoly_core::accel::bsp::polygon::{Cut, Cutter, MOST_SLABS, MOST_TRIANGLES};
 use micropoly_core::accel::bsp::rank::BspNode;
 use rayon::prelude::*;
 
+pub use draw::BspShot;
 pub use sort::BspOrder;
 
 use crate::device::CpuDevice;
@@ -166,6 +169,24 @@ impl BspGrid {
         let index = piece as usize;
         let end = self.pieces.get(index + 1).map_or(self.cuts.len(), |next| next.first_cut as usize);
         &self.cuts[self.pieces[index].first_cut as usize..end]
+    }
+
+    /// The plane of a cut.
+    #[must_use]
+    pub fn plane(&self, cut: Cut) -> Plane {
+        match cut.cutter() {
+            Cutter::Triangle(cutter) => self.planes[cutter as usize],
+            Cutter::Slab { axis, slab } => slab_plane(&self.slabs[axis], axis, slab),
+        }
+    }
+
+    /// The line of a cut in a triangle, above 0 on the side that is kept (see [`Corner::line`]).
+    ///
+    /// [`Corner::line`]: micropoly_core::accel::bsp::polygon::Corner::line
+    #[must_use]
+    pub fn line(&self, triangle: usize, cut: Cut) -> [i64; 3] {
+        let way = if cut.keeps_back() { -1 } else { 1 };
+        self.plane(cut).values(self.triangles[triangle]).map(|value| value * way)
     }
 
     /// Bytes of all lists.

@@ -8,25 +8,37 @@ use crate::num::{add, add3, dot3, flush, max, mul, neg, rsqrt, scale3, sub};
 #[inline(always)]
 pub fn shade(frame: &Frame, object: &Object, grid: &mut Grid) {
     for block in grid.blocks() {
-        let (point, mut normal) = (load3(&grid.position, block), load3(&grid.normal, block));
-        let mut to_eye = [[0.0; LANES]; 3];
-        for l in 0..LANES {
-            let away = unit([point[0][l], point[1][l], point[2][l]]);
-            [to_eye[0][l], to_eye[1][l], to_eye[2][l]] = scale3(away, neg(1.0));
-            let facing = towards_eye(away, [normal[0][l], normal[1][l], normal[2][l]]);
-            [normal[0][l], normal[1][l], normal[2][l]] = facing;
-        }
-        let mut colour = [[0.0; LANES]; 3];
-        for k in 0..3 {
-            colour[k] = [mul(frame.ambient[k], object.colour[k]); LANES];
-        }
-        for light in 0..frame.light_count as usize {
-            add_light(frame, object, light, [&point, &to_eye, &normal], &mut colour);
-        }
+        let colour = colours(frame, object, load3(&grid.position, block), load3(&grid.normal, block));
         for (all, lanes) in grid.colour.iter_mut().zip(&colour) {
             store(all, block, lanes);
         }
     }
+}
+
+/// Linear RGB of [`LANES`] points in eye space, given unit normals.
+#[inline(always)]
+#[must_use]
+pub fn colours(
+    frame: &Frame,
+    object: &Object,
+    point: [[f32; LANES]; 3],
+    mut normal: [[f32; LANES]; 3],
+) -> [[f32; LANES]; 3] {
+    let mut to_eye = [[0.0; LANES]; 3];
+    for l in 0..LANES {
+        let away = unit([point[0][l], point[1][l], point[2][l]]);
+        [to_eye[0][l], to_eye[1][l], to_eye[2][l]] = scale3(away, neg(1.0));
+        let facing = towards_eye(away, [normal[0][l], normal[1][l], normal[2][l]]);
+        [normal[0][l], normal[1][l], normal[2][l]] = facing;
+    }
+    let mut colour = [[0.0; LANES]; 3];
+    for k in 0..3 {
+        colour[k] = [mul(frame.ambient[k], object.colour[k]); LANES];
+    }
+    for light in 0..frame.light_count as usize {
+        add_light(frame, object, light, [&point, &to_eye, &normal], &mut colour);
+    }
+    colour
 }
 
 /// Adds what one light contributes to [`LANES`] vertices, given their positions, the unit directions to the

@@ -34,7 +34,7 @@ pub fn shape_of(object: &RibObject, eye: DVec3, levels: u32) -> Result<Shape> {
         RibGeometry::NuPatch(patch) => nu_patch(patch),
         RibGeometry::Subdivision(cage) => subdivided(cage, levels),
         RibGeometry::Polygons(cage) => {
-            polygons(cage).map(Shape::of_bezier).map_err(unfit("correct the polygon, or leave it out"))
+            polygons(cage).map(Shape::of_polygons).map_err(unfit("correct the polygon, or leave it out"))
         }
         RibGeometry::Quadric(quadric) => quadric_of(*quadric)
             .patches()

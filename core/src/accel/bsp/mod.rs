@@ -13,6 +13,7 @@
 //! | cells, and in which order an eye sees them | `cells.rs` |
 //! | nodes of a tree, and their pieces' places in the order | `rank.rs` |
 //! | whether the eye sees a piece along a ray | `sight.rs` |
+//! | from a camera to rays, from a hit to a sample | `show.rs` |
 //!
 //! A piece is a triangle and the planes that cut it out. No corner that a cut makes is ever needed to draw it: a ray hits
 //! the triangle, and lies on one side of each plane. So there are no seams, whatever is cut.
@@ -23,4 +24,5 @@ pub mod lattice;
 pub mod plane;
 pub mod polygon;
 pub mod rank;
+pub mod show;
 pub mod sight;

@@ -1,0 +1,205 @@
+//! Pieces in order become samples: bands of rows, a thread each, near to far until nothing more can be seen.
+
+use micropoly_core::abi::{Colour, Frame, Object, Sample};
+use micropoly_core::accel::bsp::plane::Rough;
+use micropoly_core::accel::bsp::polygon::{Corner, clip, side, whole};
+use micropoly_core::accel::bsp::show::{Eye, Face};
+use micropoly_core::accel::bsp::sight::Sight;
+use micropoly_core::kernel::blend::{Layers, blend};
+use micropoly_core::kernel::dice::LANES;
+use micropoly_core::kernel::shade::colours;
+use micropoly_core::kernel::triangle::{samples_between, site};
+use rayon::prelude::*;
+
+use super::BspGrid;
+use crate::device::CpuDevice;
+
+/// Rows of samples of a band.
+const BAND: usize = 16;
+/// What is seen of a piece is found this many snapped units around it, too: rounding stays far below.
+const MARGIN: f64 = 2.0;
+
+/// Pieces in order, and how they are seen.
+#[derive(Clone, Copy, Debug)]
+pub struct BspShot<'a> {
+    /// The pieces.
+    pub grid: &'a BspGrid,
+    /// What each triangle is seen as.
+    pub faces: &'a [Face],
+    /// From where.
+    pub eye: &'a Eye,
+    /// All pieces, far to near.
+    pub order: &'a [u32],
+    /// Samples, lights and the near plane.
+    pub frame: &'a Frame,
+    /// Colours and opacities.
+    pub objects: &'a [Object],
+}
+
+impl CpuDevice {
+    /// Blends all that is seen at each sample of the frame, in order: what is nearest goes to `front`, the colour of all
+    /// to `layers`, in the places that the frame has for them.
+    pub fn draw_bsp(&self, shot: &BspShot<'_>, front: &mut [Sample], layers: &mut [Colour]) {
+        self.install(|| draw(shot, front, layers));
+    }
+}
+
+/// Columns and rows of samples: left, right, top, bottom.
+type Box = [i32; 4];
+
+fn draw(shot: &BspShot<'_>, front: &mut [Sample], layers: &mut [Colour]) {
+    let row = shot.frame.place_row as usize;
+    if row == 0 {
+        return;
+    }
+    let boxes: Vec<Box> = (0..shot.grid.pieces.len() as u32)
+        .into_par_iter()
+        .with_min_len(1024)
+        .map(|piece| shot.box_of(piece))
+        .collect();
+    let bands = front.par_chunks_mut(row * BAND).zip(layers.par_chunks_mut(row * BAND));
+    bands.enumerate().for_each(|(number, (front, layers))| {
+        let top = shot.frame.sample_top as i32 + (number * BAND) as i32;
+        let mut band = Band { shot, top, front, layers, lines: Vec::new(), waiting: Vec::new() };
+        for &piece in shot.order.iter().rev() {
+            let [left, right, first, end] = boxes[piece as usize];
+            let rows = [first.max(top), end.min(top + BAND as i32)];
+            if left < right && rows[0] < rows[1] {
+                band.draw(piece, [left, right], rows);
+            }
+        }
+    });
+}
+
+impl BspShot<'_> {
+    /// The samples that may show something of a piece.
+    fn box_of(&self, piece: u32) -> Box {
+        let frame = self.frame;
+        let mut corners = Vec::new();
+        self.grid.corners_of(piece, &mut corners);
+        let places: Vec<[f64; 3]> = corners.iter().map(|corner| self.eye.project(corner.at)).collect();
+        let [low, high] = around(&places, 0.5 * f64::from(frame.near));
+        let along = |axis: usize, first: u32, end: u32| {
+            // A band of its own around the image is enough for any box.
+            let [low, high] =
+                [low[axis] - MARGIN, high[axis] + MARGIN].map(|c| c.clamp(-1.0e8, 1.0e8) as i32);
+            let (from, to) = samples_between(frame, low, high);
+            [from.max(first as i32), to.min(end as i32)]
+        };
+        let [left, right] = along(0, frame.sample_left, frame.sample_right);
+        let [top, bottom] = along(1, frame.sample_top, frame.sample_bottom);
+        [left, right, top, bottom]
+    }
+}
+
+/// The smallest box about what of a polygon is at least so far away, in columns and rows; empty if nothing is.
+fn around(places: &[[f64; 3]], near: f64) -> [[f64; 2]; 2] {
+    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    let mut add = |[depth, x, y]: [f64; 3]| {
+        for (axis, at) in [x / depth, y / depth].into_iter().enumerate() {
+            bounds[0][axis] = bounds[0][axis].min(at);
+            bounds[1][axis] = bounds[1][axis].max(at);
+        }
+    };
+    for (k, &here) in places.iter().enumerate() {
+        let there = places[(k + 1) % places.len()];
+        if here[0] >= near {
+            add(here);
+        }
+        if (here[0] >= near) != (there[0] >= near) {
+            let share = (near - here[0]) / (there[0] - here[0]);
+            let between = |axis: usize| here[axis] + share * (there[axis] - here[axis]);
+            add([near, between(1), between(2)]);
+        }
+    }
+    bounds
+}
+
+/// A hit that has no colour yet.
+struct Hit {
+    place: usize,
+    sample: Sample,
+    point: [f32; 3],
+}
+
+struct Band<'a> {
+    shot: &'a BspShot<'a>,
+    top: i32,
+    front: &'a mut [Sample],
+    layers: &'a mut [Colour],
+    lines: Vec<[i64; 3]>,
+    waiting: Vec<Hit>,
+}
+
+impl Band<'_> {
+    /// Blends what is seen of a piece in some columns and rows.
+    fn draw(&mut self, piece: u32, [left, right]: [i32; 2], [top, bottom]: [i32; 2]) {
+        let BspShot { grid, faces, eye, frame, .. } = *self.shot;
+        let number = grid.pieces[piece as usize].triangle as usize;
+        let Some(sight) = Sight::new(&eye.view, &grid.triangles[number]) else { return };
+        self.lines.clear();
+        self.lines.extend(grid.cuts_of(piece).iter().map(|cut| grid.line(number, *cut)));
+        for y in top..bottom {
+            for x in left..right {
+                let at = site(frame, x, y);
+                let Some(weights) = sight.hit(at[0], at[1]) else { continue };
+                let place = self.place(x, y);
+                let depth = eye.depth(sight.distance(weights));
+                let is_hidden = self.layers[place].rgba[3] >= 1.0 || depth < f64::from(frame.near);
+                if is_hidden || !self.lines.iter().all(|line| sight.is_within(weights, *line)) {
+                    continue;
+                }
+                let (sample, point) = (faces[number].sample(weights, depth), eye.point(at, depth));
+                self.waiting.push(Hit { place, sample, point });
+            }
+        }
+        if !self.waiting.is_empty() {
+            let object = &self.shot.objects[faces[number].object as usize];
+            self.blend(object, eye.normal(&grid.planes[number]));
+        }
+    }
+
+    fn place(&self, x: i32, y: i32) -> usize {
+        let frame = self.shot.frame;
+        let (column, row) = ((x - frame.sample_left as i32) as usize, (y - self.top) as usize);
+        frame.place_first as usize + column * frame.place_column as usize + row * frame.place_row as usize
+    }
+
+    /// Colours what waits, and puts it behind what is there.
+    fn blend(&mut self, object: &Object, normal: [f32; 3]) {
+        let normals = normal.map(|c| [c; LANES]);
+        for hits in self.waiting.chunks(LANES) {
+            let points =
+                std::array::from_fn(|k| std::array::from_fn(|l| hits[l.min(hits.len() - 1)].point[k]));
+            let rgb = colours(self.shot.frame, object, points, normals);
+            for (l, hit) in hits.iter().enumerate() {
+                let colour = Colour { rgba: [rgb[0][l], rgb[1][l], rgb[2][l], object.opacity] };
+                let (front, all) = (&mut self.front[hit.place], &mut self.layers[hit.place]);
+                let before = Layers { behind: Sample::default(), front: *front, colour: *all };
+                let (after, _) = blend(before, hit.sample, colour);
+                (*front, *all) = (after.front, after.colour);
+            }
+        }
+        self.waiting.clear();
+    }
+}
+
+impl BspGrid {
+    /// The corners of a piece.
+    pub fn corners_of(&self, piece: u32, corners: &mut Vec<Corner>) {
+        let triangle = &self.triangles[self.pieces[piece as usize].triangle as usize];
+        corners.clear();
+        corners.extend(whole(triangle));
+        let mut sides = Vec::new();
+        for cut in self.cuts_of(piece) {
+            let plane = self.plane(*cut);
+            let rough = Rough::of(&plane);
+            sides.clear();
+            sides.extend((0..corners.len()).map(|k| side(triangle, corners, k, &plane, &rough) as i8));
+            if sides.contains(&1) && sides.contains(&-1) {
+                let all = std::mem::take(corners);
+                clip(triangle, &all, &sides, &plane, *cut, |corner| corners.push(corner));
+            }
+        }
+    }
+}
