@@ -1,7 +1,7 @@
 //! Transparency in order: all triangles of a scene, sorted for the eye (Imre 2016), instead of a list a sample.
 
 use glam::Vec3;
-use micropoly_backend_cpu::{BspError, BspGrid, BspOptions, BspOrder, BspShot, CpuDevice};
+use micropoly_backend_cpu::{BspError, BspGrid, BspOptions, BspShot, BspSight, CpuDevice};
 use micropoly_core::abi::{Colour, Frame, Object, Sample};
 use micropoly_core::accel::bsp::show::{Eye, Face, Half};
 use micropoly_core::camera::Camera;
@@ -21,6 +21,8 @@ pub(crate) struct Ordered {
     time: f64,
     grid: BspGrid,
     faces: Vec<Face>,
+    /// What was seen last.
+    seen: Option<BspSight>,
 }
 
 impl Ordered {
@@ -31,7 +33,7 @@ impl Ordered {
     pub(crate) fn new(scene: &Scene, time: f64, ordering: Ordering, threads: usize) -> Result<Self> {
         let device = CpuDevice::new(threads).map_err(|error| Error::on_device(&error))?;
         let (grid, faces) = cut(&device, scene, time, ordering)?;
-        Ok(Self { device, ordering, time, grid, faces })
+        Ok(Self { device, ordering, time, grid, faces, seen: None })
     }
 
     /// Cuts the triangles as they are at another moment, if they move.
@@ -41,7 +43,7 @@ impl Ordered {
     pub(crate) fn move_to(&mut self, scene: &Scene, time: f64) -> Result<()> {
         if self.time != time && scene.objects_move() {
             (self.grid, self.faces) = cut(&self.device, scene, time, self.ordering)?;
-            self.time = time;
+            (self.time, self.seen) = (time, None);
         }
         Ok(())
     }
@@ -59,7 +61,7 @@ impl Ordered {
     /// # Errors
     /// [`Error::Scene`] if the camera is too far away.
     pub(crate) fn draw(
-        &self,
+        &mut self,
         camera: &Camera,
         frame: &Frame,
         objects: &[Object],
@@ -71,11 +73,11 @@ impl Ordered {
                 "move it nearer, or use --transparency layers",
             )
         })?;
-        let mut order = BspOrder::default();
-        self.device.sort_bsp(&self.grid, eye.view.eye, &mut order);
-        let (grid, faces, order) = (&self.grid, &self.faces[..], &order.pieces[..]);
-        let shot = BspShot { grid, faces, eye: &eye, order, frame, objects };
+        let seen = self.seen.take().filter(|seen| seen.eye == eye);
+        let sight = seen.unwrap_or_else(|| self.device.see_bsp(&self.grid, eye, f64::from(frame.near)));
+        let shot = BspShot { grid: &self.grid, faces: &self.faces, sight: &sight, frame, objects };
         self.device.draw_bsp(&shot, front, layers);
+        self.seen = Some(sight);
         Ok(())
     }
 }

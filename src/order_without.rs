@@ -24,7 +24,7 @@ impl Ordered {
     }
 
     pub(crate) fn draw(
-        &self,
+        &mut self,
         _: &Camera,
         _: &Frame,
         _: &[Object],

@@ -13,7 +13,7 @@ mod stages;
 mod tessellate;
 
 pub use accel::Lbvh;
-pub use bsp::{BspError, BspGrid, BspOptions, BspOrder, BspShot, Piece};
+pub use bsp::{BspError, BspGrid, BspOptions, BspOrder, BspShot, BspSight, Piece};
 pub use buffer::CpuBuffer;
 pub use device::{CpuDevice, CpuError};
 pub use tessellate::{Evaluate, Levels};

@@ -11,13 +11,24 @@ use micropoly_core::kernel::shade::colours;
 use micropoly_core::kernel::triangle::{samples_between, site};
 use rayon::prelude::*;
 
-use super::BspGrid;
+use super::{BspGrid, BspOrder};
 use crate::device::CpuDevice;
 
 /// Rows of samples of a band.
 const BAND: usize = 16;
 /// What is seen of a piece is found this many snapped units around it, too: rounding stays far below.
 const MARGIN: f64 = 2.0;
+
+/// What an eye sees of all pieces, whatever part of the image is drawn.
+#[derive(Clone, Debug)]
+pub struct BspSight {
+    /// The eye.
+    pub eye: Eye,
+    /// All pieces, far to near.
+    pub order: Vec<u32>,
+    /// Where each may be: columns and rows of snapped units, the first and the last; empty ones have a first beyond the last.
+    boxes: Vec<[[i32; 2]; 2]>,
+}
 
 /// Pieces in order, and how they are seen.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +38,7 @@ pub struct BspShot<'a> {
     /// What each triangle is seen as.
     pub faces: &'a [Face],
     /// From where.
-    pub eye: &'a Eye,
-    /// All pieces, far to near.
-    pub order: &'a [u32],
+    pub sight: &'a BspSight,
     /// Samples, lights and the near plane.
     pub frame: &'a Frame,
     /// Colours and opacities.
@@ -37,6 +46,16 @@ pub struct BspShot<'a> {
 }
 
 impl CpuDevice {
+    /// Finds the order of all pieces, and where they may be seen from this distance on.
+    #[must_use]
+    pub fn see_bsp(&self, grid: &BspGrid, eye: Eye, near: f64) -> BspSight {
+        let mut order = BspOrder::default();
+        self.sort_bsp(grid, eye.view.eye, &mut order);
+        let pieces = (0..grid.pieces.len() as u32).into_par_iter().with_min_len(1024);
+        let boxes = self.install(|| pieces.map(|piece| grid.box_of(piece, &eye, near)).collect());
+        BspSight { eye, order: order.pieces, boxes }
+    }
+
     /// Blends all that is seen at each sample of the frame, in order: what is nearest goes to `front`, the colour of all
     /// to `layers`, in the places that the frame has for them.
     pub fn draw_bsp(&self, shot: &BspShot<'_>, front: &mut [Sample], layers: &mut [Colour]) {
@@ -44,25 +63,17 @@ impl CpuDevice {
     }
 }
 
-/// Columns and rows of samples: left, right, top, bottom.
-type Box = [i32; 4];
-
 fn draw(shot: &BspShot<'_>, front: &mut [Sample], layers: &mut [Colour]) {
     let row = shot.frame.place_row as usize;
     if row == 0 {
         return;
     }
-    let boxes: Vec<Box> = (0..shot.grid.pieces.len() as u32)
-        .into_par_iter()
-        .with_min_len(1024)
-        .map(|piece| shot.box_of(piece))
-        .collect();
     let bands = front.par_chunks_mut(row * BAND).zip(layers.par_chunks_mut(row * BAND));
     bands.enumerate().for_each(|(number, (front, layers))| {
         let top = shot.frame.sample_top as i32 + (number * BAND) as i32;
         let mut band = Band { shot, top, front, layers, lines: Vec::new(), waiting: Vec::new() };
-        for &piece in shot.order.iter().rev() {
-            let [left, right, first, end] = boxes[piece as usize];
+        for &piece in shot.sight.order.iter().rev() {
+            let [left, right, first, end] = shot.samples_of(piece);
             let rows = [first.max(top), end.min(top + BAND as i32)];
             if left < right && rows[0] < rows[1] {
                 band.draw(piece, [left, right], rows);
@@ -72,33 +83,26 @@ fn draw(shot: &BspShot<'_>, front: &mut [Sample], layers: &mut [Colour]) {
 }
 
 impl BspShot<'_> {
-    /// The samples that may show something of a piece.
-    fn box_of(&self, piece: u32) -> Box {
+    /// The samples that may show something of a piece: left, right, top, bottom.
+    fn samples_of(&self, piece: u32) -> [i32; 4] {
         let frame = self.frame;
-        let mut corners = Vec::new();
-        self.grid.corners_of(piece, &mut corners);
-        let places: Vec<[f64; 3]> = corners.iter().map(|corner| self.eye.project(corner.at)).collect();
-        let [low, high] = around(&places, 0.5 * f64::from(frame.near));
-        let along = |axis: usize, first: u32, end: u32| {
-            // A band of its own around the image is enough for any box.
-            let [low, high] =
-                [low[axis] - MARGIN, high[axis] + MARGIN].map(|c| c.clamp(-1.0e8, 1.0e8) as i32);
+        let [columns, rows] = self.sight.boxes[piece as usize];
+        let along = |[low, high]: [i32; 2], first: u32, end: u32| {
             let (from, to) = samples_between(frame, low, high);
             [from.max(first as i32), to.min(end as i32)]
         };
-        let [left, right] = along(0, frame.sample_left, frame.sample_right);
-        let [top, bottom] = along(1, frame.sample_top, frame.sample_bottom);
+        let [left, right] = along(columns, frame.sample_left, frame.sample_right);
+        let [top, bottom] = along(rows, frame.sample_top, frame.sample_bottom);
         [left, right, top, bottom]
     }
 }
 
-/// The smallest box about what of a polygon is at least so far away, in columns and rows; empty if nothing is.
+/// First and last column, first and last row of what of a polygon is at least so far away.
 fn around(places: &[[f64; 3]], near: f64) -> [[f64; 2]; 2] {
-    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     let mut add = |[depth, x, y]: [f64; 3]| {
         for (axis, at) in [x / depth, y / depth].into_iter().enumerate() {
-            bounds[0][axis] = bounds[0][axis].min(at);
-            bounds[1][axis] = bounds[1][axis].max(at);
+            bounds[axis] = [bounds[axis][0].min(at), bounds[axis][1].max(at)];
         }
     };
     for (k, &here) in places.iter().enumerate() {
@@ -134,7 +138,7 @@ struct Band<'a> {
 impl Band<'_> {
     /// Blends what is seen of a piece in some columns and rows.
     fn draw(&mut self, piece: u32, [left, right]: [i32; 2], [top, bottom]: [i32; 2]) {
-        let BspShot { grid, faces, eye, frame, .. } = *self.shot;
+        let BspShot { grid, faces, frame, sight: BspSight { eye, .. }, .. } = *self.shot;
         let number = grid.pieces[piece as usize].triangle as usize;
         let Some(sight) = Sight::new(&eye.view, &grid.triangles[number]) else { return };
         self.lines.clear();
@@ -185,6 +189,16 @@ impl Band<'_> {
 }
 
 impl BspGrid {
+    /// Columns and rows of snapped units in which a piece may be seen.
+    fn box_of(&self, piece: u32, eye: &Eye, near: f64) -> [[i32; 2]; 2] {
+        let mut corners = Vec::new();
+        self.corners_of(piece, &mut corners);
+        let places: Vec<[f64; 3]> = corners.iter().map(|corner| eye.project(corner.at)).collect();
+        // No image is as large as that; where nothing is, the first is beyond the last.
+        let limited = |c: f64| c.clamp(-1.0e8, 1.0e8) as i32;
+        around(&places, 0.5 * near).map(|[low, high]| [limited(low - MARGIN), limited(high + MARGIN)])
+    }
+
     /// The corners of a piece.
     pub fn corners_of(&self, piece: u32, corners: &mut Vec<Corner>) {
         let triangle = &self.triangles[self.pieces[piece as usize].triangle as usize];

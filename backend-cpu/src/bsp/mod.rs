@@ -23,7 +23,7 @@ use micropoly_core::accel::bsp::polygon::{Cut, Cutter, MOST_SLABS, MOST_TRIANGLE
 use micropoly_core::accel::bsp::rank::BspNode;
 use rayon::prelude::*;
 
-pub use draw::BspShot;
+pub use draw::{BspShot, BspSight};
 pub use sort::BspOrder;
 
 use crate::device::CpuDevice;
