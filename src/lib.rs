@@ -20,6 +20,8 @@ pub mod accel;
 mod backend;
 pub mod bench;
 pub mod bpt;
+#[cfg(feature = "cpu")]
+pub mod bsp;
 pub mod cage;
 pub mod cage_bench;
 mod canvas;

@@ -1,18 +1,16 @@
 //! Transparency in order: all triangles of a scene, sorted for the eye (Imre 2016), instead of a list a sample.
 
 use glam::Vec3;
-use micropoly_backend_cpu::{BspError, BspGrid, BspOptions, BspShot, BspSight, CpuDevice};
+use micropoly_backend_cpu::{BspGrid, BspOptions, BspShot, BspSight, CpuDevice};
 use micropoly_core::abi::{Colour, Frame, Object, Sample};
 use micropoly_core::accel::bsp::show::{Eye, Face, Half};
 use micropoly_core::camera::Camera;
 
+use crate::bsp::{Triangle, too_far, unfit};
 use crate::error::{Error, Result};
 use crate::render::Ordering;
 use crate::scene::{Scene, SceneObject};
 use crate::shape::BezierPatch;
-
-/// Corners in world space.
-type Triangle = [[f32; 3]; 3];
 
 /// The triangles of a scene, as they are at a moment.
 pub(crate) struct Ordered {
@@ -67,12 +65,7 @@ impl Ordered {
         objects: &[Object],
         (front, layers): (&mut [Sample], &mut [Colour]),
     ) -> Result<()> {
-        let eye = Eye::new(&self.grid.lattice, &camera.view, frame).ok_or_else(|| {
-            Error::scene(
-                "the camera is more than 256 times as far away as the scene is large, too far to sort it",
-                "move it nearer, or use --transparency layers",
-            )
-        })?;
+        let eye = Eye::new(&self.grid.lattice, &camera.view, frame).ok_or_else(too_far)?;
         let seen = self.seen.take().filter(|seen| seen.eye == eye);
         let sight = seen.unwrap_or_else(|| self.device.see_bsp(&self.grid, eye, f64::from(frame.near)));
         let shot = BspShot { grid: &self.grid, faces: &self.faces, sight: &sight, frame, objects };
@@ -111,22 +104,6 @@ fn check(number: u32, object: &SceneObject) -> Result<()> {
         return Err(Error::scene(problem, "remove its displacement, or use --transparency layers"));
     }
     Ok(())
-}
-
-fn unfit(error: BspError) -> Error {
-    match error {
-        BspError::Pieces { most } => Error::scene(
-            format!("the triangles cut each other into more than {most} pieces"),
-            "choose another --bsp-grid, a --bsp-tolerance, or --transparency layers",
-        ),
-        BspError::Triangles => {
-            Error::scene("there are more than 2^30 triangles", "use --transparency layers")
-        }
-        BspError::Corner { triangle } => Error::scene(
-            format!("triangle {triangle} (counted from 0) has a corner that is not finite"),
-            "scale the scene down",
-        ),
-    }
 }
 
 /// Tells the triangles of an object: half, number of the patch, corners.

@@ -1,6 +1,6 @@
 //! `micropoly accel`: trees over the triangles of a mesh, on the CPU.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::{Args, Subcommand, value_parser};
@@ -10,6 +10,7 @@ use micropoly::tess::TessSource;
 use micropoly::{Error, Result};
 
 use super::args::resolution;
+use super::bsp::{self, SortArguments};
 
 #[derive(Debug, Args)]
 pub(crate) struct AccelArguments {
@@ -21,6 +22,9 @@ pub(crate) struct AccelArguments {
 enum What {
     /// Build the linear bounding volume hierarchy (Karras 2012) on all cores, check it, and say how large and how good it is.
     Build(TreeArguments),
+    /// Cut the triangles into a grid of trees (BSP), and put all pieces into the exact order in which the camera that renders
+    /// the mesh sees them.
+    Sort(SortArguments),
     /// Build it, and find what the camera that renders the mesh sees, with the tree and box by box.
     Query {
         #[command(flatten)]
@@ -45,19 +49,11 @@ struct TreeArguments {
 
 pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
     let (tree, res) = match &arguments.what {
+        What::Sort(arguments) => return bsp::run(arguments),
         What::Build(tree) => (tree, None),
         What::Query { tree, res } => (tree, Some(*res)),
     };
-    let mesh = TessSource::load(&tree.mesh)?;
-    if mesh.is_bezier {
-        let remedy = "give an .obj file, or tessellate it first";
-        return Err(Error::Content {
-            path: tree.mesh.clone(),
-            problem: "trees are built over triangles, and these are Bézier patches".to_owned(),
-            remedy: remedy.to_owned(),
-        });
-    }
-    mesh.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    let mesh = load(&tree.mesh)?;
     let boxes = boxes(&mesh);
     let (lbvh, built) = build(&boxes, tree.bits, tree.repeat)?;
     say!("triangles     {}", built.triangles);
@@ -74,6 +70,20 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
         say!("box by box    {:.3} ms", seen.milliseconds_box_by_box);
     }
     Ok(())
+}
+
+/// Reads a mesh of triangles, and says what of it is left out.
+pub(super) fn load(path: &Path) -> Result<TessSource> {
+    let mesh = TessSource::load(path)?;
+    if mesh.is_bezier {
+        return Err(Error::Content {
+            path: path.to_owned(),
+            problem: "trees are built over triangles, and these are Bézier patches".to_owned(),
+            remedy: "give an .obj file, or tessellate it first".to_owned(),
+        });
+    }
+    mesh.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    Ok(mesh)
 }
 
 fn precision(text: &str) -> std::result::Result<Precision, String> {

@@ -333,7 +333,7 @@ impl DiffArguments {
     }
 }
 
-fn from_zero(text: &str) -> Result<f64, String> {
+pub(crate) fn from_zero(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|x: &f64| *x >= 0.0).ok_or_else(|| "give a number from 0".to_owned())
 }
 
@@ -379,6 +379,11 @@ pub(crate) struct BenchArguments {
     /// Measure the tessellator instead: meshes × levels (Stadlbauer 2019, ch. 6), within --memory (256 MiB unless given).
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "scenes"])]
     pub(crate) tess: bool,
+    /// Measure transparency order instead: grids × tolerances (Imre 2016, Table 6.1), of the meshes (.obj) that are given,
+    /// or a built-in torus.
+    #[cfg(feature = "cpu")]
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "tess"])]
+    pub(crate) bsp: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]

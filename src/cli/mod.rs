@@ -17,6 +17,8 @@ mod bench_cage;
 mod bench_dicing;
 mod bench_raster;
 mod bench_tess;
+#[cfg(feature = "cpu")]
+mod bsp;
 mod conform;
 mod devices;
 mod diff;
@@ -60,6 +62,8 @@ pub(crate) fn main() -> ExitCode {
         #[cfg(feature = "cpu")]
         Command::Accel(arguments) => accel::run(&arguments),
         Command::TessPattern(arguments) => tess_pattern::run(&arguments),
+        #[cfg(feature = "cpu")]
+        Command::Bench(arguments) if arguments.bsp => bsp::bench(&arguments),
         Command::Bench(arguments) if arguments.tess => bench_tess::run(&arguments),
         Command::Bench(arguments) if arguments.cage => bench_cage::run(&arguments),
         Command::Bench(arguments) if arguments.raster => bench_raster::run(&arguments),

@@ -1,0 +1,123 @@
+//! `micropoly accel sort` and `micropoly bench --bsp`: triangles in the exact order in which an eye sees them.
+
+use std::path::{Path, PathBuf};
+
+use bytesize::ByteSize;
+use clap::{Args, value_parser};
+use micropoly::bsp::{Row, cut, measure, sort, triangles};
+use micropoly::cage::generate::{Layout, torus_cage};
+use micropoly::core::accel::bsp::polygon::MOST_SLABS;
+use micropoly::tess::TessSource;
+use micropoly::{Error, Result};
+use micropoly_backend_cpu::BspOptions;
+
+use super::accel::load;
+use super::args::{BenchArguments, from_zero};
+use super::render::write_json;
+
+#[derive(Debug, Args)]
+pub(crate) struct SortArguments {
+    /// Mesh file (.obj).
+    mesh: PathBuf,
+    /// Cells of the grid along each axis. [default: chosen from the number of triangles]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(1..=i64::from(MOST_SLABS)))]
+    bsp_grid: Option<u32>,
+    /// Do not cut triangles that reach beyond a plane by no more than this share of the mesh's longest side; 0 is exact.
+    #[arg(long, value_name = "SHARE", default_value = "0", value_parser = from_zero)]
+    bsp_tolerance: f64,
+    /// Planes that are tried for each node.
+    #[arg(long, value_name = "N", default_value_t = BspOptions::default().candidates,
+          value_parser = value_parser!(u32).range(1..=1024))]
+    candidates: u32,
+    /// Runs of each; the shortest counts.
+    #[arg(long, value_name = "N", default_value = "10", value_parser = value_parser!(u32).range(1..=1000))]
+    repeat: u32,
+}
+
+/// Sorts for the camera that renders the mesh.
+pub(crate) fn run(arguments: &SortArguments) -> Result<()> {
+    let mesh = load(&arguments.mesh)?;
+    let triangles = triangles(&mesh);
+    let options = BspOptions {
+        grid: arguments.bsp_grid,
+        tolerance: arguments.bsp_tolerance,
+        candidates: arguments.candidates,
+        ..BspOptions::default()
+    };
+    let (grid, cut) = cut(&triangles, &options, 0, arguments.repeat)?;
+    let (_, sorted) = sort(&grid, &triangles, &mesh.camera()?, arguments.repeat)?;
+    let [x, y, z] = cut.grid;
+    say!("triangles     {}, {} of them without area", cut.triangles, cut.degenerate);
+    say!("grid          {x}x{y}x{z}, growth {:.2}", cut.grid_growth);
+    say!("pieces        {}, growth {:.2}", cut.pieces, cut.growth);
+    say!("nodes         {}", cut.nodes);
+    say!("memory        {}", ByteSize(cut.bytes as u64).display().iec());
+    say!("build         {:.2} ms", cut.milliseconds);
+    say!("sort          {:.3} ms", sorted.milliseconds);
+    say!("by centroids  {:.3} ms, a radix sort, not exact", sorted.radix_milliseconds);
+    Ok(())
+}
+
+/// The table of Imre 2016, Table 6.1.
+pub(crate) fn bench(arguments: &BenchArguments) -> Result<()> {
+    say!(
+        "{:<9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>10} {:>9} {:>9} {:>7}",
+        "grid",
+        "tolerance",
+        "triangles",
+        "pieces",
+        "growth",
+        "memory",
+        "build ms",
+        "sort ms",
+        "radix ms",
+        "ratio"
+    );
+    let mut rows = Vec::new();
+    for (name, mesh) in meshes(&arguments.scenes)? {
+        say!("{name}");
+        let measured = measure(&name, &mesh, arguments.repeat, |row| say!("{}", line(row)))?;
+        say_ratio(&measured);
+        rows.extend(measured);
+    }
+    match &arguments.json {
+        Some(path) => write_json(path, &rows),
+        None => Ok(()),
+    }
+}
+
+/// How much faster the first row was built than the last one, the naive tree.
+fn say_ratio(rows: &[Row]) {
+    if let [first, .., naive] = rows {
+        let ratio = naive.cut.milliseconds / first.cut.milliseconds;
+        say!("the last row is one naive tree on one thread; the first one is built {ratio:.1} times as fast");
+    }
+}
+
+fn line(Row { cut, sorted, .. }: &Row) -> String {
+    let [x, y, z] = cut.grid;
+    format!(
+        "{:<9} {:>9} {:>9} {:>9} {:>7.2} {:>7} {:>10.1} {:>9.3} {:>9.3} {:>7.2}",
+        format!("{x}x{y}x{z}"),
+        cut.tolerance,
+        cut.triangles,
+        cut.pieces,
+        cut.growth,
+        ByteSize(cut.bytes as u64).display().iec_short(),
+        cut.milliseconds,
+        sorted.milliseconds,
+        sorted.radix_milliseconds,
+        sorted.milliseconds / sorted.radix_milliseconds
+    )
+}
+
+/// The meshes that a user names, or a built-in one.
+fn meshes(files: &[PathBuf]) -> Result<Vec<(String, TessSource)>> {
+    if files.is_empty() {
+        let torus = TessSource::of_mesh(&torus_cage(70_000, Layout::Triangles));
+        let torus = torus.map_err(|error| Error::scene(error.to_string(), "report it"))?;
+        return Ok(vec![("torus".to_owned(), torus)]);
+    }
+    let named = |path: &PathBuf| Ok((Path::display(path).to_string(), load(path)?));
+    files.iter().map(named).collect()
+}
