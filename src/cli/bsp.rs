@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::{Args, value_parser};
-use micropoly::bsp::{Row, cut, measure, sort, triangles};
+use micropoly::bsp::{OneTree, Row, Table, cut, measure, sort, triangles};
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bsp::polygon::MOST_SLABS;
 use micropoly::tess::TessSource;
@@ -73,24 +73,27 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<()> {
         "radix ms",
         "ratio"
     );
-    let mut rows = Vec::new();
+    let mut tables = Vec::new();
     for (name, mesh) in meshes(&arguments.scenes)? {
         say!("{name}");
-        let measured = measure(&name, &mesh, arguments.repeat, |row| say!("{}", line(row)))?;
-        say_ratio(&measured);
-        rows.extend(measured);
+        let table = measure(&name, &mesh, arguments.repeat, |row| say!("{}", line(row)))?;
+        say_trees(&table);
+        tables.push(table);
     }
     match &arguments.json {
-        Some(path) => write_json(path, &rows),
+        Some(path) => write_json(path, &tables),
         None => Ok(()),
     }
 }
 
-/// How much faster the first row was built than the last one, the naive tree.
-fn say_ratio(rows: &[Row]) {
-    if let [first, .., naive] = rows {
-        let ratio = naive.cut.milliseconds / first.cut.milliseconds;
-        say!("the last row is one naive tree on one thread; the first one is built {ratio:.1} times as fast");
+/// How much longer than the first row one tree over all of the mesh takes, on one thread.
+fn say_trees(table: &Table) {
+    let Some(first) = table.rows.first() else { return };
+    let trees =
+        [("one tree, integers, first planes", table.one), ("one tree, floats, random planes", table.naive)];
+    for (what, OneTree { growth, milliseconds }) in trees {
+        let ratio = milliseconds / first.cut.milliseconds;
+        say!("{what}: growth {growth:.2}, {milliseconds:.1} ms, {ratio:.1} times the first row's");
     }
 }
 

@@ -3,7 +3,7 @@
 use micropoly_core::accel::bsp::cells::{slab_of, slab_plane, slabs_of};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
-use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, clip, side, whole};
+use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side, whole};
 use rayon::prelude::*;
 
 /// Triangles that one thread cuts in a row.
@@ -65,9 +65,9 @@ pub(super) fn into_cells(triangles: &[[Point; 3]], planes: &[Plane], slabs: &[Ve
     let shares: Vec<Share> = numbers
         .par_chunks(TRIANGLES_AT_ONCE)
         .map(|numbers| {
-            let mut knife = Knife { slabs, share: Share::default(), sides: Vec::new() };
-            numbers.iter().for_each(|&number| knife.cut(number, &triangles[number as usize]));
-            knife.share
+            let mut cutter = Slicer { slabs, share: Share::default(), sides: Vec::new() };
+            numbers.iter().for_each(|&number| cutter.cut(number, &triangles[number as usize]));
+            cutter.share
         })
         .collect();
     let cells = slabs.iter().map(Vec::len).product();
@@ -96,13 +96,13 @@ fn by_cells(shares: Vec<Share>, cells: usize) -> Parts {
 }
 
 /// Cuts triangles along x, then y, then z.
-struct Knife<'a> {
+struct Slicer<'a> {
     slabs: &'a [Vec<i32>; 3],
     share: Share,
     sides: Vec<i8>,
 }
 
-impl Knife<'_> {
+impl Slicer<'_> {
     fn cut(&mut self, number: u32, triangle: &[Point; 3]) {
         let piece = whole(triangle);
         let ranges = [0, 1, 2].map(|axis| slabs_of(&self.slabs[axis], axis, triangle));
@@ -145,8 +145,9 @@ impl Knife<'_> {
             }
             let cut = |keeps_back| Cut::new(Cutter::Slab { axis, slab }, keeps_back);
             let (mut kept, mut later) = (Vec::new(), Vec::new());
-            clip(triangle, &rest, &self.sides, &plane, cut(true), |corner| kept.push(corner));
-            clip(triangle, &rest, &self.sides, &plane, cut(false), |corner| later.push(corner));
+            let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
+            knife.clip(&rest, cut(true), |corner| kept.push(corner));
+            knife.clip(&rest, cut(false), |corner| later.push(corner));
             self.along(axis + 1, cell, number, triangle, &kept);
             rest = later;
         }

@@ -2,7 +2,7 @@
 
 use micropoly_core::abi::{Colour, Frame, Object, Sample};
 use micropoly_core::accel::bsp::plane::Rough;
-use micropoly_core::accel::bsp::polygon::{Corner, clip, side, whole};
+use micropoly_core::accel::bsp::polygon::{Corner, Knife, side, whole};
 use micropoly_core::accel::bsp::show::{Eye, Face};
 use micropoly_core::accel::bsp::sight::Sight;
 use micropoly_core::kernel::blend::{Layers, blend};
@@ -212,7 +212,8 @@ impl BspGrid {
             sides.extend((0..corners.len()).map(|k| side(triangle, corners, k, &plane, &rough) as i8));
             if sides.contains(&1) && sides.contains(&-1) {
                 let all = std::mem::take(corners);
-                clip(triangle, &all, &sides, &plane, *cut, |corner| corners.push(corner));
+                let knife = Knife { triangle, line: plane.values(*triangle), sides: &sides };
+                knife.clip(&all, *cut, |corner| corners.push(corner));
             }
         }
     }

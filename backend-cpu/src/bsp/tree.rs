@@ -1,9 +1,11 @@
 //! A tree in each cell: planes of triangles cut the parts of the others, until all of a node's own lie in its plane.
 
+use micropoly_core::accel::bsp::choose::{JUDGES, Jury, Side};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
-use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, clip, side};
+use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side};
 use micropoly_core::accel::bsp::rank::BspNode;
+use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::cut::{Part, Parts};
@@ -11,10 +13,6 @@ use super::{BspError, Piece};
 
 /// Cells that one thread works off in a row.
 const CELLS_AT_ONCE: usize = 64;
-/// A plane is judged by about so many parts.
-const JUDGES: usize = 128;
-/// A cut is as bad as so many parts more on one side than on the other.
-const CUT_COST: u32 = 6;
 
 /// What trees are built by.
 pub(super) struct Rules {
@@ -83,24 +81,23 @@ fn joined(grown: Vec<Grown>, rules: &Rules) -> Result<Forest, BspError> {
     Ok(forest)
 }
 
-/// What a plane makes of a part.
-#[derive(Clone, Copy, PartialEq)]
-enum Verdict {
-    InPlane,
-    Before,
-    Behind,
-    Cut,
-}
-
-impl Verdict {
-    const fn of(before: bool, behind: bool) -> Self {
-        match (before, behind) {
-            (false, false) => Self::InPlane,
-            (true, false) => Self::Before,
-            (false, true) => Self::Behind,
-            (true, true) => Self::Cut,
+/// The triangle, of some, in whose plane a node should be, of those as good the first; and on which side of it all are.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl", "x86_64+avx2"))]
+fn best(
+    jury: &Jury,
+    planes: &[Plane],
+    candidates: impl Iterator<Item = u32>,
+    sides: &mut [Side; JUDGES],
+) -> u32 {
+    let mut best = (u32::MAX, 0);
+    for candidate in candidates {
+        let cost = jury.cost(&planes[candidate as usize]);
+        if cost < best.0 {
+            best = (cost, candidate);
         }
     }
+    jury.sides(&planes[best.1 as usize], sides);
+    best.1
 }
 
 /// Parts on one side of a node, at the end of the list of those that wait.
@@ -119,12 +116,24 @@ struct Gardener<'a> {
     /// The part that is being cut, and its corners' sides.
     piece: Vec<Corner>,
     sides: Vec<i8>,
+    jury: Jury,
+    judged: [Side; JUDGES],
 }
 
 impl<'a> Gardener<'a> {
     fn new(triangles: &'a [[Point; 3]], planes: &'a [Plane], rules: &'a Rules) -> Self {
         let (corners, piece, sides) = (Vec::new(), Vec::new(), Vec::new());
-        Self { triangles, planes, rules, trees: Trees::default(), corners, piece, sides }
+        Self {
+            triangles,
+            planes,
+            rules,
+            trees: Trees::default(),
+            corners,
+            piece,
+            sides,
+            jury: Jury::default(),
+            judged: [Side::Unsure; JUDGES],
+        }
     }
 
     /// Adds the tree of a cell.
@@ -145,6 +154,11 @@ impl<'a> Gardener<'a> {
             if let Some(parent) = parent {
                 self.trees.nodes[parent].to_back = (node - parent) as u32;
             }
+            if let [part] = now[..] {
+                self.keep(part);
+                self.trees.nodes.push(BspNode { triangle: part.triangle, own: 1, ..BspNode::default() });
+                continue;
+            }
             self.divide(&now, &mut before, &mut behind);
             if self.trees.pieces.len() + before.len() + behind.len() > self.rules.most_pieces as usize {
                 return Err(BspError::Pieces { most: self.rules.most_pieces });
@@ -163,19 +177,20 @@ impl<'a> Gardener<'a> {
 
     /// Makes a node of some parts; gives those on either side of it.
     fn divide(&mut self, parts: &[Part], before: &mut Vec<Part>, behind: &mut Vec<Part>) {
-        let triangle = parts[self.choose(parts)].triangle;
+        let (triangle, are_judged) = self.choose(parts);
         let plane = self.planes[triangle as usize];
         let rough = Rough::of(&plane);
         let mut own = 0;
-        for part in parts {
-            match self.verdict(*part, triangle, &rough) {
-                Verdict::InPlane => {
+        for (k, part) in parts.iter().enumerate() {
+            let judged = if are_judged { self.judged[k] } else { Side::Unsure };
+            match self.side_of(*part, judged, triangle, &rough) {
+                Side::InPlane | Side::Unsure => {
                     self.keep(*part);
                     own += 1;
                 }
-                Verdict::Before => before.push(*part),
-                Verdict::Behind => behind.push(*part),
-                Verdict::Cut => {
+                Side::Before => before.push(*part),
+                Side::Behind => behind.push(*part),
+                Side::Cut => {
                     self.note(*part, &plane, &rough);
                     before.push(self.clipped(*part, &plane, Cut::new(Cutter::Triangle(triangle), false)));
                     behind.push(self.clipped(*part, &plane, Cut::new(Cutter::Triangle(triangle), true)));
@@ -186,53 +201,39 @@ impl<'a> Gardener<'a> {
         self.trees.nodes.push(BspNode { triangle, own, front, back, to_back: 0 });
     }
 
-    /// Which of some parts lies in the best plane of those that are tried.
-    fn choose(&self, parts: &[Part]) -> usize {
+    /// A triangle in the best plane of those that are tried; and does the jury say on which side of it all parts are?
+    fn choose(&mut self, parts: &[Part]) -> (u32, bool) {
         let tried = self.rules.candidates.min(parts.len());
-        if parts.len() < 2 {
-            return 0;
+        if tried < 2 {
+            return (parts[0].triangle, false);
         }
-        let candidates = (0..tried).map(|k| k * parts.len() / tried);
-        let mut best = (u32::MAX, 0);
-        for candidate in candidates {
-            let cost = self.cost(parts, parts[candidate].triangle, best.0);
-            if cost < best.0 {
-                best = (cost, candidate);
-            }
+        if let [a, b] = *parts {
+            let rough = Rough::of(&self.planes[a.triangle as usize]);
+            let is_cut = self.side_of(b, Side::Unsure, a.triangle, &rough) == Side::Cut;
+            return (if is_cut { b.triangle } else { a.triangle }, false);
         }
-        best.1
+        let candidates = (0..tried).map(|k| parts[k * parts.len() / tried].triangle);
+        self.jury.call(parts.iter().map(|part| part.corners(&self.corners)));
+        let best = best(&self.jury, self.planes, candidates, &mut self.judged);
+        (best, parts.len() <= JUDGES && self.rules.tolerance == 0.0)
     }
 
-    /// How bad a plane is, or at least `enough`.
-    fn cost(&self, parts: &[Part], triangle: u32, enough: u32) -> u32 {
-        let rough = Rough::of(&self.planes[triangle as usize]);
-        let (mut before, mut behind, mut cuts) = (0_u32, 0_u32, 0);
-        for part in parts.iter().step_by(parts.len().div_ceil(JUDGES)) {
-            match self.verdict(*part, triangle, &rough) {
-                Verdict::InPlane => {}
-                Verdict::Before => before += 1,
-                Verdict::Behind => behind += 1,
-                Verdict::Cut => cuts += CUT_COST,
-            }
-            if cuts >= enough {
-                return cuts;
-            }
-        }
-        cuts + before.abs_diff(behind)
-    }
-
-    fn verdict(&self, part: Part, triangle: u32, rough: &Rough) -> Verdict {
+    /// On which side of a triangle's plane a part is, if the jury was not sure.
+    fn side_of(&self, part: Part, judged: Side, triangle: u32, rough: &Rough) -> Side {
         if part.triangle == triangle {
-            return Verdict::InPlane;
+            return Side::InPlane;
+        }
+        if judged != Side::Unsure {
+            return judged;
         }
         let piece = part.corners(&self.corners);
         if self.rules.tolerance > 0.0 {
-            let near = rough.value_at(self.rules.tolerance);
+            let near = rough.value_at(self.rules.tolerance).max(rough.slack());
             let (before, behind) = piece.iter().fold((false, false), |(before, behind), corner| {
                 let value = rough.value(corner.at);
                 (before | (value > near), behind | (value < -near))
             });
-            return Verdict::of(before, behind);
+            return Side::of(before, behind);
         }
         let (corners, plane) = (&self.triangles[part.triangle as usize], &self.planes[triangle as usize]);
         let (mut before, mut behind) = (false, false);
@@ -240,8 +241,11 @@ impl<'a> Gardener<'a> {
             let side = side(corners, piece, k, plane, rough);
             before |= side > 0;
             behind |= side < 0;
+            if before && behind {
+                break;
+            }
         }
-        Verdict::of(before, behind)
+        Side::of(before, behind)
     }
 
     /// Notes a part that is to be cut, and on which sides of a plane its corners are.
@@ -257,7 +261,8 @@ impl<'a> Gardener<'a> {
     fn clipped(&mut self, part: Part, plane: &Plane, cut: Cut) -> Part {
         let (triangle, first) = (&self.triangles[part.triangle as usize], self.corners.len());
         let corners = &mut self.corners;
-        clip(triangle, &self.piece, &self.sides, plane, cut, |corner| corners.push(corner));
+        let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
+        knife.clip(&self.piece, cut, |corner| corners.push(corner));
         Part { first: first as u32, count: (self.corners.len() - first) as u32, ..part }
     }
 

@@ -10,6 +10,7 @@
 //! | planes of triangles and between cells | `plane.rs` |
 //! | sums of products that are wider than a word | `exact.rs` |
 //! | a convex piece of a triangle, and what a plane makes of it | `polygon.rs` |
+//! | which plane is best for a node | `choose.rs` |
 //! | cells, and in which order an eye sees them | `cells.rs` |
 //! | nodes of a tree, and their pieces' places in the order | `rank.rs` |
 //! | whether the eye sees a piece along a ray | `sight.rs` |
@@ -19,6 +20,7 @@
 //! the triangle, and lies on one side of each plane. So there are no seams, whatever is cut.
 
 pub mod cells;
+pub mod choose;
 pub mod exact;
 pub mod lattice;
 pub mod plane;

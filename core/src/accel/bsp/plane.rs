@@ -81,7 +81,6 @@ const fn dot(a: [i64; 3], b: Point) -> i64 {
 pub struct Rough {
     normal: [f64; 3],
     offset: f64,
-    /// What is nearer than this may be on the other side.
     slack: f64,
 }
 
@@ -102,6 +101,13 @@ impl Rough {
     #[must_use]
     pub fn value(&self, [x, y, z]: [f64; 3]) -> f64 {
         self.normal[0] * x + self.normal[1] * y + self.normal[2] * z - self.offset
+    }
+
+    /// What is nearer than this may be on the other side.
+    #[inline(always)]
+    #[must_use]
+    pub const fn slack(&self) -> f64 {
+        self.slack
     }
 
     /// The sign of a value, if it is certain.

@@ -113,39 +113,52 @@ const fn sign_of(weights: [i128; 3]) -> i32 {
     if is_below { -1 } else { 1 }
 }
 
-/// Tells what of a piece is on the side of a plane that a cut keeps; `sides` are those of its corners, of which some are on
-/// that side and some on the other one.
-pub fn clip(
-    triangle: &[Point; 3],
-    piece: &[Corner],
-    sides: &[i8],
-    plane: &Plane,
-    cut: Cut,
-    mut tell: impl FnMut(Corner),
-) {
-    let way = if cut.keeps_back() { -1 } else { 1 };
-    let line = plane.values(*triangle).map(|value| value * i64::from(way));
-    for (k, corner) in piece.iter().enumerate() {
-        let next = if k + 1 == piece.len() { 0 } else { k + 1 };
-        let (here, there) = (i32::from(sides[k]) * way, i32::from(sides[next]) * way);
-        if here <= 0 && there <= 0 {
-            continue;
-        }
-        let meeting = || Corner { at: meet(triangle, corner.line, line), vertex: MADE, ..*corner };
-        tell(if here < 0 { meeting() } else { *corner });
-        if there <= 0 {
-            let end = if there == 0 { piece[next] } else { meeting() };
-            tell(Corner { line, cut, ..end });
+/// A plane in a piece that it cuts: its line, and on which side of it each corner is.
+#[derive(Clone, Copy, Debug)]
+pub struct Knife<'a> {
+    /// Corners of the triangle.
+    pub triangle: &'a [Point; 3],
+    /// The plane's values there.
+    pub line: [i64; 3],
+    /// Sides of the piece's corners: some are on one side, some on the other.
+    pub sides: &'a [i8],
+}
+
+impl Knife<'_> {
+    /// Tells the corners of what of a piece is on the side of the plane that a cut keeps.
+    #[inline]
+    pub fn clip(&self, piece: &[Corner], cut: Cut, mut tell: impl FnMut(Corner)) {
+        let way = if cut.keeps_back() { -1 } else { 1 };
+        let line = self.line.map(|value| value * i64::from(way));
+        for (k, corner) in piece.iter().enumerate() {
+            let next = if k + 1 == piece.len() { 0 } else { k + 1 };
+            let (here, there) = (i32::from(self.sides[k]) * way, i32::from(self.sides[next]) * way);
+            if here <= 0 && there <= 0 {
+                continue;
+            }
+            let meeting = || Corner { at: meet(self.triangle, corner.line, line), vertex: MADE, ..*corner };
+            tell(if here < 0 { meeting() } else { *corner });
+            if there <= 0 {
+                let end = if there == 0 { piece[next] } else { meeting() };
+                tell(Corner { line, cut, ..end });
+            }
         }
     }
 }
 
 /// Where two lines meet, which is in the triangle. All weights have one sign, so nothing cancels.
 fn meet(triangle: &[Point; 3], a: [i64; 3], b: [i64; 3]) -> [f64; 3] {
-    let weights = cross(a, b).map(|weight| (weight as f64).abs());
+    let weights = cross(a, b).map(float);
     let all = weights[0] + weights[1] + weights[2];
     core::array::from_fn(|axis| {
         let [a, b, c] = triangle.map(|corner| f64::from(corner[axis]));
         (a * weights[0] + b * weights[1] + c * weights[2]) / all
     })
+}
+
+/// The magnitude of a number, to 2⁻⁵² of it.
+#[inline(always)]
+fn float(number: i128) -> f64 {
+    let magnitude = number.unsigned_abs();
+    (magnitude >> 64) as u64 as f64 * 18_446_744_073_709_551_616.0 + magnitude as u64 as f64
 }

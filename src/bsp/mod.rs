@@ -1,5 +1,7 @@
 //! How a mesh becomes pieces that can be put into order for any eye, and what that takes (Imre 2016, Table 6.1).
 
+mod naive;
+
 use std::time::Instant;
 
 use micropoly_backend_cpu::{BspError, BspGrid, BspOptions, BspOrder, CpuDevice};
@@ -182,33 +184,51 @@ const GRIDS: [u32; 3] = [25, 30, 35];
 /// Exact, and the class of tolerance of the thesis.
 const TOLERANCES: [f64; 2] = [0.0, 1.0e-3];
 
-/// Measures grids and tolerances, and one naive tree over all of the mesh to compare with: on one thread, each plane that of
-/// the first triangle that is left. That is the last row.
+/// What one tree over all of a mesh takes on one thread.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct OneTree {
+    /// Pieces for each triangle.
+    pub growth: f64,
+    /// Milliseconds.
+    pub milliseconds: f64,
+}
+
+/// The table of a mesh.
+#[derive(Clone, Debug, Serialize)]
+pub struct Table {
+    /// Grids and tolerances.
+    pub rows: Vec<Row>,
+    /// One tree in integers, like those in cells, but with the plane of the first triangle that is left at each node.
+    pub one: OneTree,
+    /// One tree in floats, planes in random order: naive.
+    pub naive: OneTree,
+}
+
+/// Measures grids and tolerances, and two trees over all of the mesh to compare with.
 ///
 /// # Errors
 /// As [`cut`] and [`sort`].
-pub fn measure(
-    name: &str,
-    mesh: &TessSource,
-    repeat: u32,
-    mut progress: impl FnMut(&Row),
-) -> Result<Vec<Row>> {
+pub fn measure(name: &str, mesh: &TessSource, repeat: u32, mut progress: impl FnMut(&Row)) -> Result<Table> {
     let (triangles, camera) = (triangles(mesh), mesh.camera()?);
-    let mut plans = Vec::new();
-    for tolerance in TOLERANCES {
-        let options = |grid: &u32| BspOptions { grid: Some(*grid), tolerance, ..BspOptions::default() };
-        plans.extend(GRIDS.iter().map(options).map(|options| (options, 0)));
-    }
-    plans.push((BspOptions { grid: Some(1), candidates: 1, ..BspOptions::default() }, 1));
     let mut rows = Vec::new();
-    for (options, threads) in plans {
-        let (grid, cut) = cut(&triangles, &options, threads, repeat)?;
-        let (_, sorted) = sort(&grid, &triangles, &camera, 10 * repeat)?;
-        let row = Row { mesh: name.to_owned(), cut, sorted };
-        progress(&row);
-        rows.push(row);
+    for tolerance in TOLERANCES {
+        for grid in GRIDS {
+            let options = BspOptions { grid: Some(grid), tolerance, ..BspOptions::default() };
+            let (grid, cut) = cut(&triangles, &options, 0, repeat)?;
+            let (_, sorted) = sort(&grid, &triangles, &camera, 10 * repeat)?;
+            let row = Row { mesh: name.to_owned(), cut, sorted };
+            progress(&row);
+            rows.push(row);
+        }
     }
-    Ok(rows)
+    let options = BspOptions { grid: Some(1), candidates: 1, ..BspOptions::default() };
+    let (_, Cut { growth, milliseconds, .. }) = cut(&triangles, &options, 1, 1)?;
+    let one = OneTree { growth, milliseconds };
+    let start = Instant::now();
+    let pieces = naive::build(&triangles);
+    let milliseconds = elapsed(start);
+    let naive = OneTree { growth: pieces as f64 / triangles.len().max(1) as f64, milliseconds };
+    Ok(Table { rows, one, naive })
 }
 
 fn elapsed(start: Instant) -> f64 {
