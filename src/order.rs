@@ -1,5 +1,7 @@
 //! Transparency in order: all triangles of a scene, sorted for the eye (Imre 2016), instead of a list a sample.
 
+use std::time::Instant;
+
 use glam::Vec3;
 use micropoly_backend_cpu::{BspGrid, BspOptions, BspShot, BspSight, CpuDevice};
 use micropoly_core::abi::{Colour, Frame, Object, Sample};
@@ -21,6 +23,8 @@ pub(crate) struct Ordered {
     faces: Vec<Face>,
     /// What was seen last.
     seen: Option<BspSight>,
+    /// Time that all of it took.
+    seconds: f64,
 }
 
 impl Ordered {
@@ -29,9 +33,11 @@ impl Ordered {
     /// # Errors
     /// [`Error::Scene`] if there is anything but polygons, or they cut each other into too many pieces.
     pub(crate) fn new(scene: &Scene, time: f64, ordering: Ordering, threads: usize) -> Result<Self> {
+        let start = Instant::now();
         let device = CpuDevice::new(threads).map_err(|error| Error::on_device(&error))?;
         let (grid, faces) = cut(&device, scene, time, ordering)?;
-        Ok(Self { device, ordering, time, grid, faces, seen: None })
+        let seconds = start.elapsed().as_secs_f64();
+        Ok(Self { device, ordering, time, grid, faces, seen: None, seconds })
     }
 
     /// Cuts the triangles as they are at another moment, if they move.
@@ -44,6 +50,11 @@ impl Ordered {
             (self.time, self.seen) = (time, None);
         }
         Ok(())
+    }
+
+    /// Time that all of it took so far.
+    pub(crate) const fn seconds(&self) -> f64 {
+        self.seconds
     }
 
     /// What a user may want to know of it.
@@ -65,12 +76,14 @@ impl Ordered {
         objects: &[Object],
         (front, layers): (&mut [Sample], &mut [Colour]),
     ) -> Result<()> {
+        let start = Instant::now();
         let eye = Eye::new(&self.grid.lattice, &camera.view, frame).ok_or_else(too_far)?;
         let seen = self.seen.take().filter(|seen| seen.eye == eye);
         let sight = seen.unwrap_or_else(|| self.device.see_bsp(&self.grid, eye, f64::from(frame.near)));
         let shot = BspShot { grid: &self.grid, faces: &self.faces, sight: &sight, frame, objects };
         self.device.draw_bsp(&shot, front, layers);
         self.seen = Some(sight);
+        self.seconds += start.elapsed().as_secs_f64();
         Ok(())
     }
 }

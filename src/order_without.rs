@@ -19,6 +19,10 @@ impl Ordered {
         match *self {}
     }
 
+    pub(crate) fn seconds(&self) -> f64 {
+        match *self {}
+    }
+
     pub(crate) fn note(&self) -> String {
         match *self {}
     }

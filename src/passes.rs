@@ -68,7 +68,7 @@ impl<'a> Passes<'a> {
     }
 
     /// The scene's triangles at the first moment, if they are to be put into order.
-    pub(crate) fn order(&self) -> Result<Option<Ordered>> {
+    fn order(&self) -> Result<Option<Ordered>> {
         let (Transparency::Order(ordering), Some((_, time))) =
             (self.options.transparency, self.moments.first())
         else {
@@ -130,19 +130,19 @@ impl<'a> Passes<'a> {
         Ok((plan.within(self.options.batch.budget()), regions, notes.into_iter().collect()))
     }
 
-    /// Renders all parts onto the canvas.
+    /// Renders all parts onto the canvas; gives the triangles, too, if they were put into order.
     pub(crate) fn run<D: Device>(
         &self,
         device: &mut D,
         plan: &FramePlan,
         buffers: &mut Buffers<D::Buffer>,
         regions: &[Region],
-        order: &mut Option<Ordered>,
         canvas: &mut Canvas,
         mut progress: impl FnMut(&Progress<'_>),
-    ) -> Result<Counts> {
+    ) -> Result<(Counts, Option<Ordered>)> {
         let failed = |error: D::Error| Error::on_device(&error);
         let mut counts = Counts::default();
+        let mut order = self.order()?;
         for (index, region) in regions.iter().enumerate() {
             let mut inner = |share: f64, counts: &Counts| {
                 progress(&Progress { share: (index as f64 + share) / regions.len() as f64, counts });
@@ -150,7 +150,7 @@ impl<'a> Passes<'a> {
             if index > 0 {
                 plan.clear(device, buffers).map_err(failed)?; // new buffers are clear
             }
-            if let Some(order) = order {
+            if let Some(order) = &mut order {
                 let (front, layers) = self.in_order(order, *region)?;
                 plan.take_layers(device, buffers, &front, &layers).map_err(failed)?;
                 inner(1.0, &counts);
@@ -162,7 +162,7 @@ impl<'a> Passes<'a> {
             aimed.filter(device, buffers, &self.taps).map_err(failed)?;
             canvas.take(device, &buffers.pixels, region.shown).map_err(failed)?;
         }
-        Ok(counts)
+        Ok((counts, order))
     }
 
     /// Blends the triangles of a part of the image: in one view, or in all.

@@ -194,19 +194,19 @@ pub(crate) fn render_from<D: Device>(
     let scene = subject.scene;
     let job = Passes::new(subject, options)?;
     let (plan, regions, mut notes) = job.plan_on(device)?;
-    let mut order = job.order()?;
-    notes.extend(order.as_ref().map(Ordered::note));
     let mut device = Timed::new(device);
     let failed = |error: D::Error| Error::on_device(&error);
     let mut buffers = plan.prepare(&mut device, &job.views[0].1, subject.patches).map_err(failed)?;
     let setup = start.elapsed().as_secs_f64();
     let mut canvas = Canvas::new(job.window, scene.background, options.film);
-    let counts = job.run(&mut device, &plan, &mut buffers, &regions, &mut order, &mut canvas, progress)?;
+    let (counts, order) = job.run(&mut device, &plan, &mut buffers, &regions, &mut canvas, progress)?;
+    notes.extend(order.as_ref().map(Ordered::note));
     let resolving = Instant::now();
     let bytes_allocated = device.bytes_allocated();
     let film = options.film.then(|| canvas.film(subject, &options.frame)).transpose()?;
     let resolve = device.seconds.resolve + canvas.seconds + resolving.elapsed().as_secs_f64();
-    let seconds = Seconds { setup, resolve, ..device.seconds };
+    let draw = device.seconds.draw + order.as_ref().map_or(0.0, Ordered::seconds);
+    let seconds = Seconds { setup, draw, resolve, ..device.seconds };
     Ok(Rendering {
         image: canvas.image(),
         film,

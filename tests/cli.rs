@@ -604,3 +604,48 @@ fn what_webers_program_does_not_know_is_refused() {
         assert!(code == 1 && text.contains(what) && text.contains("help:"), "{text}");
     }
 }
+
+#[test]
+fn transparency_in_order_renders_what_can_be_sorted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let image = folder.path().join("out.png").display().to_string();
+    let run = |scene: &str, more: &[&str]| {
+        let all = [&["render", scene, "-o", &image, "--backend", "cpu", "--res", "64x36"], more].concat();
+        let output = micropoly(&all);
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let order = ["--transparency", "order"];
+    let (code, said) = run("scenes/crossing.toml", &order);
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("360 triangles in ") && said.contains("a grid of 4x4x4"), "{said}");
+    let hash = |said: &str| said.lines().find(|line| line.starts_with("image hash")).map(str::to_owned);
+    let wanted = hash(&said);
+    assert!(wanted.is_some());
+    let (_, said) = run("scenes/crossing.toml", &[&order[..], &["--bsp-grid", "9"]].concat());
+    assert!(said.contains("a grid of 9x9x9") && hash(&said) == wanted, "{said}");
+    let (code, said) = run("scenes/ball.obj", &order);
+    assert!(code == Some(1) && said.contains("--polygons"), "{said}");
+    let (code, said) = run("scenes/ball.obj", &[&order[..], &["--polygons"]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    for bad in [["--bsp-grid", "0"], ["--bsp-grid", "5000"], ["--bsp-tolerance", "-1"]] {
+        assert_eq!(run("scenes/crossing.toml", &[&order[..], &bad].concat()).0, Some(2));
+    }
+}
+
+#[test]
+fn sorting_a_mesh_says_what_it_takes() {
+    let output = micropoly(&["accel", "sort", "scenes/ball.obj", "--bsp-grid", "3", "--repeat", "1"]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success() && said.contains("grid          3x3x3, growth "), "{said}");
+    let output = micropoly(&["accel", "sort", "scenes/teapot.bpt"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("these are Bézier patches"));
+    let folder = tempfile::tempdir().expect("a folder");
+    let json = folder.path().join("table.json").display().to_string();
+    let output = micropoly(&["bench", "--bsp", "scenes/ball.obj", "--repeat", "1", "--json", &json]);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success() && said.contains("35x35x35") && said.contains("one tree"), "{said}");
+    let table: serde_json::Value =
+        serde_json::from_str(&std::fs::read_to_string(&json).expect("written")).expect("JSON");
+    assert_eq!(table[0]["rows"].as_array().map(Vec::len), Some(6));
+    assert!(table[0]["rows"][0]["cut"]["growth"].as_f64() > Some(1.0), "{table}");
+}

@@ -1,14 +1,17 @@
 //! Pieces in order become samples: bands of rows, a thread each, near to far until nothing more can be seen.
 
+#![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
+
 use micropoly_core::abi::{Colour, Frame, Object, Sample};
 use micropoly_core::accel::bsp::plane::Rough;
 use micropoly_core::accel::bsp::polygon::{Corner, Knife, side, whole};
 use micropoly_core::accel::bsp::show::{Eye, Face};
-use micropoly_core::accel::bsp::sight::Sight;
+use micropoly_core::accel::bsp::sight::{Glance, Sight};
 use micropoly_core::kernel::blend::{Layers, blend};
 use micropoly_core::kernel::dice::LANES;
 use micropoly_core::kernel::shade::colours;
 use micropoly_core::kernel::triangle::{samples_between, site};
+use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::{BspGrid, BspOrder};
@@ -18,6 +21,9 @@ use crate::device::CpuDevice;
 const BAND: usize = 16;
 /// What is seen of a piece is found this many snapped units around it, too: rounding stays far below.
 const MARGIN: f64 = 2.0;
+
+/// What is behind something else.
+const BEHIND: Sample = Sample { depth: 1, patch_id: 0, u: 0, v: 0 };
 
 /// What an eye sees of all pieces, whatever part of the image is drawn.
 #[derive(Clone, Debug)]
@@ -71,7 +77,8 @@ fn draw(shot: &BspShot<'_>, front: &mut [Sample], layers: &mut [Colour]) {
     let bands = front.par_chunks_mut(row * BAND).zip(layers.par_chunks_mut(row * BAND));
     bands.enumerate().for_each(|(number, (front, layers))| {
         let top = shot.frame.sample_top as i32 + (number * BAND) as i32;
-        let mut band = Band { shot, top, front, layers, lines: Vec::new(), waiting: Vec::new() };
+        let mut band =
+            Band { shot, top, front, layers, lines: Vec::new(), glances: Vec::new(), waiting: Vec::new() };
         for &piece in shot.sight.order.iter().rev() {
             let [left, right, first, end] = shot.samples_of(piece);
             let rows = [first.max(top), end.min(top + BAND as i32)];
@@ -119,6 +126,17 @@ fn around(places: &[[f64; 3]], near: f64) -> [[f64; 2]; 2] {
     bounds
 }
 
+/// As core's `colours`.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl", "x86_64+avx2"))]
+fn shaded(
+    frame: &Frame,
+    object: &Object,
+    points: [[f32; LANES]; 3],
+    normals: [[f32; LANES]; 3],
+) -> [[f32; LANES]; 3] {
+    colours(frame, object, points, normals)
+}
+
 /// A hit that has no colour yet.
 struct Hit {
     place: usize,
@@ -132,6 +150,7 @@ struct Band<'a> {
     front: &'a mut [Sample],
     layers: &'a mut [Colour],
     lines: Vec<[i64; 3]>,
+    glances: Vec<Glance>,
     waiting: Vec<Hit>,
 }
 
@@ -143,24 +162,46 @@ impl Band<'_> {
         let Some(sight) = Sight::new(&eye.view, &grid.triangles[number]) else { return };
         self.lines.clear();
         self.lines.extend(grid.cuts_of(piece).iter().map(|cut| grid.line(number, *cut)));
+        self.glances.clear();
+        self.glances.extend([[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|side| sight.glance(side)));
+        self.glances.extend(self.lines.iter().map(|line| sight.glance(*line)));
         for y in top..bottom {
             for x in left..right {
-                let at = site(frame, x, y);
-                let Some(weights) = sight.hit(at[0], at[1]) else { continue };
-                let place = self.place(x, y);
-                let depth = eye.depth(sight.distance(weights));
-                let is_hidden = self.layers[place].rgba[3] >= 1.0 || depth < f64::from(frame.near);
-                if is_hidden || !self.lines.iter().all(|line| sight.is_within(weights, *line)) {
+                let (at, place) = (site(frame, x, y), self.place(x, y));
+                if self.layers[place].rgba[3] >= 1.0 {
                     continue;
                 }
-                let (sample, point) = (faces[number].sample(weights, depth), eye.point(at, depth));
-                self.waiting.push(Hit { place, sample, point });
+                let Some(weights) = self.hit(&sight, at) else { continue };
+                let depth = eye.depth(sight.distance(weights));
+                if depth >= f64::from(frame.near) {
+                    // Only of what is nearest anybody asks where it is.
+                    let is_first = self.front[place].depth == 0;
+                    let sample = if is_first { faces[number].sample(weights, depth) } else { BEHIND };
+                    self.waiting.push(Hit { place, sample, point: eye.point(at, depth) });
+                }
             }
         }
         if !self.waiting.is_empty() {
             let object = &self.shot.objects[faces[number].object as usize];
             self.blend(object, eye.normal(&grid.planes[number]));
         }
+    }
+
+    /// Weights of the corners, if the piece is hit: mostly a glance is enough to say that it is not.
+    #[inline(always)]
+    fn hit(&self, sight: &Sight, at: [i32; 2]) -> Option<[i128; 3]> {
+        let [x, y] = at.map(f64::from);
+        let mut is_sure = true;
+        for glance in &self.glances {
+            let is_within = glance.is_within(x, y);
+            if is_within == Some(false) {
+                return None;
+            }
+            is_sure &= is_within.is_some();
+        }
+        let weights = sight.hit(at[0], at[1])?;
+        let is_within = is_sure || self.lines.iter().all(|line| sight.is_within(weights, *line));
+        is_within.then_some(weights)
     }
 
     fn place(&self, x: i32, y: i32) -> usize {
@@ -175,7 +216,7 @@ impl Band<'_> {
         for hits in self.waiting.chunks(LANES) {
             let points =
                 std::array::from_fn(|k| std::array::from_fn(|l| hits[l.min(hits.len() - 1)].point[k]));
-            let rgb = colours(self.shot.frame, object, points, normals);
+            let rgb = shaded(self.shot.frame, object, points, normals);
             for (l, hit) in hits.iter().enumerate() {
                 let colour = Colour { rgba: [rgb[0][l], rgb[1][l], rgb[2][l], object.opacity] };
                 let (front, all) = (&mut self.front[hit.place], &mut self.layers[hit.place]);

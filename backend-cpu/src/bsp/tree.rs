@@ -1,5 +1,7 @@
 //! A tree in each cell: planes of triangles cut the parts of the others, until all of a node's own lie in its plane.
 
+#![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
+
 use micropoly_core::accel::bsp::choose::{JUDGES, Jury, Side};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};

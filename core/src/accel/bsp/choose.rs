@@ -6,7 +6,7 @@
 
 use super::plane::Plane;
 use super::polygon::Corner;
-use crate::num::{abs, add, max, min, mul, recip, sub};
+use crate::num::{abs, add, max, min, mul, neg, recip, sub};
 
 /// Planes are judged by so many pieces at most.
 pub const JUDGES: usize = 64;
@@ -99,7 +99,7 @@ impl Jury {
             let [low, high] = self.between(first, normal, offset);
             for l in 0..LANES {
                 let counts = u32::from(first + l < self.count);
-                let (is_before, is_behind) = (u32::from(high[l] > NEAR), u32::from(low[l] < -NEAR));
+                let (is_before, is_behind) = (u32::from(high[l] > NEAR), u32::from(low[l] < neg(NEAR)));
                 cuts[l] += counts & is_before & is_behind;
                 before[l] += counts & is_before;
                 behind[l] += counts & is_behind;
@@ -133,11 +133,11 @@ impl Jury {
             let [low, high] = self.between(first, normal, offset);
             for l in 0..LANES {
                 let is_whole = self.is_whole[first + l];
-                sides[first + l] = if low[l] < -NEAR && high[l] > NEAR {
+                sides[first + l] = if low[l] < neg(NEAR) && high[l] > NEAR {
                     Side::Cut
                 } else if low[l] > NEAR && is_whole {
                     Side::Before
-                } else if high[l] < -NEAR && is_whole {
+                } else if high[l] < neg(NEAR) && is_whole {
                     Side::Behind
                 } else {
                     Side::Unsure

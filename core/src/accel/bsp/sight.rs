@@ -35,6 +35,31 @@ impl Ramp {
     }
 }
 
+/// A line of a triangle as an eye sees it, in floats: enough to say on which side of it most places of an image are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glance {
+    at: f64,
+    right: f64,
+    down: f64,
+    /// What is nearer to 0 than this may be on the other side.
+    slack: f64,
+}
+
+/// Columns and rows of snapped units are below this.
+const WIDEST: f64 = (1 << 24) as f64;
+/// Products and sums of some floats are right to this share of all their magnitudes together.
+const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
+
+impl Glance {
+    /// Is a place on the side where the line is above 0, if that is certain?
+    #[inline(always)]
+    #[must_use]
+    pub fn is_within(&self, x: f64, y: f64) -> Option<bool> {
+        let value = self.at + x * self.right + y * self.down;
+        if value.abs() > self.slack { Some(value > 0.0) } else { None }
+    }
+}
+
 /// A triangle as an eye sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sight {
@@ -86,6 +111,21 @@ impl Sight {
             sign = dot_sign(self.weights.map(|weight| weight.down), line);
         }
         sign > 0
+    }
+
+    /// A line of the triangle, in floats.
+    #[must_use]
+    pub fn glance(&self, line: [i64; 3]) -> Glance {
+        let mut glance = Glance { at: 0.0, right: 0.0, down: 0.0, slack: 0.0 };
+        for (ramp, value) in self.weights.iter().zip(line) {
+            let value = value as f64;
+            let [at, right, down] = [ramp.at, ramp.right, ramp.down].map(|c| c as f64 * value);
+            glance.at += at;
+            glance.right += right;
+            glance.down += down;
+            glance.slack += (at.abs() + WIDEST * (right.abs() + down.abs())) * ROUNDING;
+        }
+        glance
     }
 
     /// How far away a hit is, in lengths of the ray's direction.
