@@ -65,7 +65,7 @@ pub(super) fn into_cells(triangles: &[[Point; 3]], planes: &[Plane], slabs: &[Ve
     let shares: Vec<Share> = numbers
         .par_chunks(TRIANGLES_AT_ONCE)
         .map(|numbers| {
-            let mut cutter = Slicer { slabs, share: Share::default(), sides: Vec::new() };
+            let mut cutter = Slicer { slabs, share: Share::default(), sides: Vec::new(), spare: Vec::new() };
             numbers.iter().for_each(|&number| cutter.cut(number, &triangles[number as usize]));
             cutter.share
         })
@@ -100,6 +100,8 @@ struct Slicer<'a> {
     slabs: &'a [Vec<i32>; 3],
     share: Share,
     sides: Vec<i8>,
+    /// Lists to be used again.
+    spare: Vec<Vec<Corner>>,
 }
 
 impl Slicer<'_> {
@@ -109,7 +111,7 @@ impl Slicer<'_> {
         if ranges.iter().all(|[first, last]| first == last) {
             self.keep(number, ranges.map(|[first, _]| first), &piece);
         } else {
-            self.along(0, [0; 3], number, triangle, &piece);
+            self.along(0, [0; 3], number, triangle, piece.to_vec());
         }
     }
 
@@ -120,37 +122,40 @@ impl Slicer<'_> {
         mut cell: [u32; 3],
         number: u32,
         triangle: &[Point; 3],
-        piece: &[Corner],
+        mut piece: Vec<Corner>,
     ) {
         if axis == 3 {
-            self.keep(number, cell, piece);
+            self.keep(number, cell, &piece);
+            self.spare.push(piece);
             return;
         }
-        let [first, last] = touched(&self.slabs[axis], axis, piece);
-        let mut rest = piece.to_vec();
-        for slab in first..=last {
-            cell[axis] = slab;
-            if slab == last {
-                self.along(axis + 1, cell, number, triangle, &rest);
-                break;
-            }
+        let [first, last] = touched(&self.slabs[axis], axis, &piece);
+        for slab in first..last {
             let plane = slab_plane(&self.slabs[axis], axis, slab);
-            let (behind, before) = self.sides(triangle, &rest, &plane);
-            if !before {
-                self.along(axis + 1, cell, number, triangle, &rest);
-                break;
+            cell[axis] = slab;
+            match self.sides(triangle, &piece, &plane) {
+                (_, false) => return self.along(axis + 1, cell, number, triangle, piece),
+                (false, true) => {}
+                (true, true) => {
+                    let cut = |keeps_back| Cut::new(Cutter::Slab { axis, slab }, keeps_back);
+                    let kept = self.clipped(triangle, &piece, &plane, cut(true));
+                    let later = self.clipped(triangle, &piece, &plane, cut(false));
+                    self.spare.push(std::mem::replace(&mut piece, later));
+                    self.along(axis + 1, cell, number, triangle, kept);
+                }
             }
-            if !behind {
-                continue;
-            }
-            let cut = |keeps_back| Cut::new(Cutter::Slab { axis, slab }, keeps_back);
-            let (mut kept, mut later) = (Vec::new(), Vec::new());
-            let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
-            knife.clip(&rest, cut(true), |corner| kept.push(corner));
-            knife.clip(&rest, cut(false), |corner| later.push(corner));
-            self.along(axis + 1, cell, number, triangle, &kept);
-            rest = later;
         }
+        cell[axis] = last;
+        self.along(axis + 1, cell, number, triangle, piece);
+    }
+
+    /// What a cut keeps of a piece whose sides are noted.
+    fn clipped(&mut self, triangle: &[Point; 3], piece: &[Corner], plane: &Plane, cut: Cut) -> Vec<Corner> {
+        let mut corners = self.spare.pop().unwrap_or_default();
+        corners.clear();
+        let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
+        knife.clip(piece, cut, |corner| corners.push(corner));
+        corners
     }
 
     /// Notes on which sides of a plane the corners of a piece are; says whether some are behind and before it.

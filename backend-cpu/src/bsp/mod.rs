@@ -44,7 +44,7 @@ pub struct BspOptions {
 
 impl Default for BspOptions {
     fn default() -> Self {
-        Self { grid: None, tolerance: 0.0, candidates: 12, most_pieces: 1 << 28 }
+        Self { grid: None, tolerance: 0.0, candidates: 6, most_pieces: 1 << 28 }
     }
 }
 

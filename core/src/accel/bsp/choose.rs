@@ -17,7 +17,7 @@ const LANES: usize = 8;
 /// A cut is as bad as so many pieces more on one side than on the other.
 const CUT_COST: u32 = 6;
 /// What is nearer to a plane than that, in units of the lattice, may be on the other side. Coordinates are below 2²⁰: those
-/// of corners are off by 2⁻⁴, a normal's by 2⁻²³ of the largest, the offset and three sums by 2⁻² each, all together by 1.5.
+/// of corners are off by 2⁻⁴, a normal's by 2⁻²³ of the largest, the offset and the sums by about 2⁻² each, all together by less than that.
 const NEAR: f32 = 2.0;
 
 /// On which side of a plane a piece is.
