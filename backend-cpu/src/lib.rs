@@ -7,6 +7,7 @@ mod device;
 mod draw;
 mod local;
 mod pixels;
+mod radix;
 mod sort_last;
 mod stages;
 mod tessellate;

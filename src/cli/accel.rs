@@ -1,6 +1,6 @@
 //! `micropoly accel`: trees over the triangles of a mesh, on the CPU.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::{Args, Subcommand, value_parser};
@@ -48,16 +48,7 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
         What::Build(tree) => (tree, None),
         What::Query { tree, res } => (tree, Some(*res)),
     };
-    let mesh = TessSource::load(&tree.mesh)?;
-    if mesh.is_bezier {
-        let remedy = "give an .obj file, or tessellate it first";
-        return Err(Error::Content {
-            path: tree.mesh.clone(),
-            problem: "trees are built over triangles, and these are Bézier patches".to_owned(),
-            remedy: remedy.to_owned(),
-        });
-    }
-    mesh.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    let mesh = load(&tree.mesh)?;
     let boxes = boxes(&mesh);
     let (lbvh, built) = build(&boxes, tree.bits, tree.repeat)?;
     say!("triangles     {}", built.triangles);
@@ -74,6 +65,20 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
         say!("box by box    {:.3} ms", seen.milliseconds_box_by_box);
     }
     Ok(())
+}
+
+/// A mesh of triangles.
+pub(super) fn load(path: &Path) -> Result<TessSource> {
+    let mesh = TessSource::load(path)?;
+    if mesh.is_bezier {
+        return Err(Error::Content {
+            path: path.to_owned(),
+            problem: "trees are built over triangles, and these are Bézier patches".to_owned(),
+            remedy: "give an .obj file, or tessellate it first".to_owned(),
+        });
+    }
+    mesh.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    Ok(mesh)
 }
 
 fn precision(text: &str) -> std::result::Result<Precision, String> {

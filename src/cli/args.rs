@@ -332,6 +332,12 @@ pub(crate) struct BenchArguments {
     /// Measure the tessellator instead: meshes × levels (Stadlbauer 2019, ch. 6), within --memory (256 MiB unless given).
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "scenes"])]
     pub(crate) tess: bool,
+    /// Measure how trees over the triangles of this mesh are built instead, on the CPU, beside the `obvhs` crate's fastest
+    /// preset.
+    #[cfg(feature = "cpu")]
+    #[arg(long, value_name = "MESH.obj",
+          conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "tess", "scenes"])]
+    pub(crate) accel: Option<PathBuf>,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]
