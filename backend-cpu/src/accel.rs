@@ -103,7 +103,7 @@ impl Part<'_> {
     fn build_in_turn(&mut self, sorted: &Sorted<'_>) -> Top {
         let end = self.first + self.leaves.len() as u32;
         let (mut stack, mut height) =
-            ([Top { first: 0, shared: 0, node: Node::leaf(0, Bounds::NONE) }; DEEPEST + 2], 0);
+            ([Top { first: 0, shared: 0, node: Node::leaf(0, Bounds::NONE) }; DEEPEST as usize + 2], 0);
         let mut shared = 0;
         for leaf in self.first..end {
             let primitive = sorted.keys[leaf as usize].1;
@@ -125,7 +125,7 @@ impl Part<'_> {
     fn join(&mut self, a: &Top, b: &Top, sorted: &Sorted<'_>) -> Top {
         let first = self.settle(a, b.first - 1, sorted);
         let second = self.settle(b, b.first, sorted);
-        Top { node: Node { bounds: a.node.bounds.union(b.node.bounds), first, second }, ..*a }
+        Top { node: Node::new(a.node.bounds().union(b.node.bounds()), first, second), ..*a }
     }
 
     /// Puts a node into its place: an inner one has the number of its last leaf if it is the first half of its parent, and

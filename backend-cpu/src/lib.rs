@@ -11,6 +11,7 @@ mod radix;
 mod sort_last;
 mod stages;
 mod tessellate;
+mod trees;
 
 pub use accel::Lbvh;
 pub use buffer::CpuBuffer;

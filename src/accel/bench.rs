@@ -56,7 +56,7 @@ impl Builder {
         match self {
             Self::Own(precision) => {
                 let tree = input.device.build_lbvh(input.boxes, precision);
-                (elapsed(start), areas(tree.nodes.iter().map(|node| node.bounds)))
+                (elapsed(start), areas(tree.nodes.iter().map(|node| node.bounds())))
             }
             Self::Obvhs => {
                 let tree =

@@ -135,7 +135,7 @@ fn elapsed(start: Instant) -> f64 {
 /// Areas of all boxes, in shares of the root's.
 #[must_use]
 pub fn sah(nodes: &[Node]) -> f64 {
-    areas(nodes.iter().map(|node| node.bounds))
+    areas(nodes.iter().map(|node| node.bounds()))
 }
 
 /// Areas of all boxes, in shares of the first's.
