@@ -123,6 +123,7 @@ fn remedy(error: &PlanError) -> String {
              no more than a fixed amount"
         ),
         PlanError::Tessellation { .. } => "see `micropoly_core::tess::stream::TessInput`".to_owned(),
+        PlanError::Unfinished { .. } => "see `micropoly devices`, or use --backend cpu".to_owned(),
         PlanError::BreadthMesh => "choose adaptive, bounded, local or stack".to_owned(),
         PlanError::TooLarge { buffer: "vertices" | "indices", .. } => {
             "choose a larger --micropolygon-size, another device (see `micropoly devices` for limits) or --backend cpu"

@@ -4,7 +4,7 @@ use micropoly::accel::{boxes, frustum, query};
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bounds::Bounds;
 use micropoly::core::accel::morton::{Grid, Precision};
-use micropoly::core::accel::tree::{NOTHING, Node, fit, inner, validate};
+use micropoly::core::accel::tree::{EMPTY, Node, fit, inner, link, validate};
 use micropoly::tess::TessSource;
 use micropoly_backend_cpu::{CpuDevice, Lbvh};
 
@@ -17,9 +17,10 @@ fn node_by_node(boxes: &[Bounds], precision: Precision) -> Lbvh {
     let codes: Vec<u64> = keys.iter().map(|(code, _)| *code).collect();
     let above = boxes.len().saturating_sub(1);
     let mut nodes: Vec<Node> = (0..above as u32).map(|index| inner(&codes, index)).collect();
-    nodes.extend(keys.iter().map(|&(_, primitive)| Node::leaf(primitive, boxes[primitive as usize])));
-    let mut parents = vec![NOTHING; nodes.len()];
-    fit(&mut nodes, &mut parents, &mut vec![0; above]);
+    nodes.extend(keys.iter().map(|&(_, primitive)| Node::leaf(primitive, EMPTY)));
+    let mut parents = vec![0; nodes.len()];
+    link(&nodes, &mut parents, above);
+    fit(&mut nodes, &parents, boxes, &mut vec![0; above]);
     Lbvh { nodes, parents }
 }
 

@@ -1,15 +1,18 @@
-//! The linear bounding volume hierarchy on all threads: the tree of `micropoly_core::accel`, cut in two and two again.
+//! The linear bounding volume hierarchy on all threads: the tree of `micropoly_core::accel`, cut in two and two again
+//! until each part is one thread's, which goes through its leaves once.
 
+use bytemuck::zeroed_vec;
 use micropoly_core::accel::bounds::Bounds;
-use micropoly_core::accel::hierarchy::{Span, split};
+use micropoly_core::accel::hierarchy::{common, split};
 use micropoly_core::accel::morton::{Grid, Precision};
-use micropoly_core::accel::tree::{NOTHING, Node, node_count};
+use micropoly_core::accel::tree::{DEEPEST, NOTHING, Node, node_count};
 use rayon::prelude::*;
 
 use crate::device::CpuDevice;
+use crate::radix::{Key, sorted};
 
 /// Fewer leaves than this are one thread's.
-const FEW: usize = 1024;
+const FEW: usize = 4096;
 
 /// A tree over boxes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,33 +37,44 @@ fn build(boxes: &[Bounds], precision: Precision) -> Lbvh {
     }
     let all = boxes.par_iter().copied().reduce(|| Bounds::NONE, Bounds::union);
     let grid = Grid::new(&all, precision);
-    let (codes, order) = sorted(&grid, boxes, precision);
+    let keys = boxes.par_iter().enumerate().map(|(k, bounds)| (grid.code(bounds), k as u32)).collect();
+    let keys = sorted(keys, 3 * precision.bits());
+    let codes: Vec<u64> = keys.par_iter().map(|key| key.0).collect();
     let count = node_count(boxes.len() as u32) as usize;
-    let mut tree = Lbvh { nodes: vec![Node::leaf(0, Bounds::NONE); count], parents: vec![NOTHING; count] };
+    // Zeroed by the operating system, page by page, by whichever thread uses them first.
+    let mut tree = Lbvh { nodes: zeroed_vec(count), parents: zeroed_vec(count) };
     let (inner, leaves) = tree.nodes.split_at_mut(boxes.len() - 1);
     let (inner_parents, leaf_parents) = tree.parents.split_at_mut(boxes.len() - 1);
-    leaves
-        .par_iter_mut()
-        .zip(&order)
-        .for_each(|(leaf, &primitive)| *leaf = Node::leaf(primitive, boxes[primitive as usize]));
-    let part = Part { first: 0, inner, inner_parents, leaves, leaf_parents };
-    part.build(&codes, NOTHING, false);
+    let mut whole = Part { first: 0, inner, inner_parents, leaves, leaf_parents };
+    let sorted = Sorted { keys: &keys, codes: &codes, boxes };
+    let root = whole.build(&sorted);
+    whole.settle(&root, 0, &sorted);
+    tree.parents[0] = NOTHING;
     tree
 }
 
-/// Codes in order, and whose they are; of equal ones the lower primitive comes first.
-fn sorted(grid: &Grid, boxes: &[Bounds], precision: Precision) -> (Vec<u64>, Vec<u32>) {
-    if precision == Precision::Bits30 {
-        // Code and number fit one word.
-        let mut keys: Vec<u64> =
-            boxes.par_iter().enumerate().map(|(k, bounds)| grid.code(bounds) << 32 | k as u64).collect();
-        keys.par_sort_unstable();
-        return keys.into_par_iter().map(|key| (key >> 32, key as u32)).unzip();
+/// Primitives in the order of their codes.
+struct Sorted<'a> {
+    keys: &'a [Key],
+    codes: &'a [u64],
+    boxes: &'a [Bounds],
+}
+
+impl Sorted<'_> {
+    /// Number of a leaf's node.
+    fn node(&self, leaf: u32) -> u32 {
+        leaf + self.codes.len() as u32 - 1
     }
-    let mut keys: Vec<(u64, u32)> =
-        boxes.par_iter().enumerate().map(|(k, bounds)| (grid.code(bounds), k as u32)).collect();
-    keys.par_sort_unstable();
-    keys.into_par_iter().unzip()
+}
+
+/// The highest node over neighbouring leaves, which has no number yet.
+#[derive(Clone, Copy)]
+struct Top {
+    /// First leaf.
+    first: u32,
+    /// Leading bits that its code shares with the one before.
+    shared: i32,
+    node: Node,
 }
 
 /// Neighbouring leaves, and the inner nodes above them alone: those with the same numbers, one of which is another part's.
@@ -69,52 +83,86 @@ struct Part<'a> {
     first: u32,
     inner: &'a mut [Node],
     inner_parents: &'a mut [u32],
-    leaves: &'a [Node],
+    leaves: &'a mut [Node],
     leaf_parents: &'a mut [u32],
 }
 
 impl Part<'_> {
-    /// Makes all nodes of a part; gives its box. Its highest inner node has the number of its last leaf if it is the first half
-    /// of its parent, and else of its first.
-    fn build(self, codes: &[u64], parent: u32, is_first_half: bool) -> Bounds {
-        let Self { first, inner, inner_parents, leaves, leaf_parents } = self;
-        if let [leaf] = leaves {
-            leaf_parents[0] = parent;
-            return leaf.bounds;
+    /// Makes all nodes of a part but the highest, which it gives.
+    fn build(&mut self, sorted: &Sorted<'_>) -> Top {
+        if self.leaves.len() < FEW {
+            return self.build_in_turn(sorted);
         }
-        let last = first + leaves.len() as u32 - 1;
-        let span = Span { first, last, split: split(codes, first, last) };
-        let own = if is_first_half { leaves.len() - 1 } else { 0 };
-        let number = first + own as u32;
-        inner_parents[own] = parent;
-        let part = Part { first, inner: &mut *inner, inner_parents, leaves, leaf_parents };
-        let (a, b) = part.halves(span.split);
-        let [a, b] = if leaves.len() < FEW {
-            [a.build(codes, number, true), b.build(codes, number, false)]
-        } else {
-            rayon::join(|| a.build(codes, number, true), || b.build(codes, number, false)).into()
-        };
-        let [left, right] = span.children(codes.len() as u32);
-        let bounds = a.union(b);
-        inner[own] = Node { bounds, first: left, second: right };
-        bounds
+        let (mut a, mut b) = self.halves(sorted);
+        let (a, b) = rayon::join(|| a.build(sorted), || b.build(sorted));
+        self.join(&a, &b, sorted)
     }
 
-    /// Those up to a leaf, and those behind it.
-    fn halves(self, split: u32) -> (Self, Self) {
-        let Self { first, inner, inner_parents, leaves, leaf_parents } = self;
-        let cut = (split + 1 - first) as usize;
-        let (inner, inner_b) = inner.split_at_mut(cut);
-        let (inner_parents, inner_parents_b) = inner_parents.split_at_mut(cut);
-        let (leaves, leaves_b) = leaves.split_at(cut);
-        let (leaf_parents, leaf_parents_b) = leaf_parents.split_at_mut(cut);
-        let behind = Self {
-            first: split + 1,
+    /// Leaf by leaf: two neighbouring nodes have the same parent as soon as the next leaf has less in common with them than
+    /// they with each other.
+    fn build_in_turn(&mut self, sorted: &Sorted<'_>) -> Top {
+        let end = self.first + self.leaves.len() as u32;
+        let (mut stack, mut height) =
+            ([Top { first: 0, shared: 0, node: Node::leaf(0, Bounds::NONE) }; DEEPEST as usize + 2], 0);
+        let mut shared = 0;
+        for leaf in self.first..end {
+            let primitive = sorted.keys[leaf as usize].1;
+            let mut top =
+                Top { first: leaf, shared, node: Node::leaf(primitive, sorted.boxes[primitive as usize]) };
+            shared = if leaf + 1 < end { common(sorted.codes, leaf, i64::from(leaf) + 1) } else { -1 };
+            while height > 0 && top.shared > shared {
+                height -= 1;
+                top = self.join(&stack[height], &top, sorted);
+            }
+            stack[height] = top;
+            height += 1;
+        }
+        stack[0]
+    }
+
+    /// The parent of two.
+    #[inline(always)]
+    fn join(&mut self, a: &Top, b: &Top, sorted: &Sorted<'_>) -> Top {
+        let first = self.settle(a, b.first - 1, sorted);
+        let second = self.settle(b, b.first, sorted);
+        Top { node: Node::new(a.node.bounds().union(b.node.bounds()), first, second), ..*a }
+    }
+
+    /// Puts a node into its place: an inner one has the number of its last leaf if it is the first half of its parent, and
+    /// else of its first. Gives that number.
+    #[inline(always)]
+    fn settle(&mut self, top: &Top, leaf: u32, sorted: &Sorted<'_>) -> u32 {
+        let at = (leaf - self.first) as usize;
+        if top.node.is_leaf() {
+            self.leaves[at] = top.node;
+            return sorted.node(leaf);
+        }
+        self.inner[at] = top.node;
+        for child in [top.node.first, top.node.second] {
+            match child.checked_sub(sorted.node(self.first)) {
+                Some(place) => self.leaf_parents[place as usize] = leaf,
+                None => self.inner_parents[(child - self.first) as usize] = leaf,
+            }
+        }
+        leaf
+    }
+
+    /// Those up to where codes differ first, and those behind.
+    fn halves(&mut self, sorted: &Sorted<'_>) -> (Part<'_>, Part<'_>) {
+        let last = self.first + self.leaves.len() as u32 - 1;
+        let behind = split(sorted.codes, self.first, last) + 1;
+        let cut = (behind - self.first) as usize;
+        let (inner, inner_b) = self.inner.split_at_mut(cut);
+        let (inner_parents, inner_parents_b) = self.inner_parents.split_at_mut(cut);
+        let (leaves, leaves_b) = self.leaves.split_at_mut(cut);
+        let (leaf_parents, leaf_parents_b) = self.leaf_parents.split_at_mut(cut);
+        let b = Part {
+            first: behind,
             inner: inner_b,
             inner_parents: inner_parents_b,
             leaves: leaves_b,
             leaf_parents: leaf_parents_b,
         };
-        (Self { first, inner, inner_parents, leaves, leaf_parents }, behind)
+        (Part { first: self.first, inner, inner_parents, leaves, leaf_parents }, b)
     }
 }

@@ -13,7 +13,7 @@ use crate::buffer::CpuBuffer;
 use crate::draw::{Lists, Steps};
 use crate::sort_last::{self, Keys};
 use crate::tessellate::{self, Evaluate, Levels, OwnSteps};
-use crate::{draw, local, pixels, stages};
+use crate::{draw, local, pixels, stages, trees};
 
 /// What can go wrong on the CPU.
 #[derive(Debug)]
@@ -211,6 +211,20 @@ impl Device for CpuDevice {
             (Stage::TessControl, _) => tessellate::tess_control(&self.pool, buffers, &self.own),
             (Stage::TessPlaces, _) => tessellate::tess_places(buffers),
             (Stage::TessEvaluate, _) => tessellate::tess_evaluate(&self.pool, buffers, &self.own),
+            (
+                Stage::AccelExtent
+                | Stage::AccelCodes
+                | Stage::AccelCount
+                | Stage::AccelScan
+                | Stage::AccelScatter
+                | Stage::AccelTree
+                | Stage::AccelBoxes
+                | Stage::AccelSee
+                | Stage::AccelFill
+                | Stage::AccelRays
+                | Stage::AccelNearest,
+                Items::Count(count),
+            ) => trees::run(&self.pool, stage, count, buffers),
             (Stage::Flush, _) => stages::flush(buffers),
             (Stage::KnownAnswers, Items::Count(count)) => stages::known_answers(buffers, count),
             _ => Err(CpuError::Bindings { stage: stage.name() }),

@@ -8,9 +8,11 @@ mod device;
 mod draw;
 mod local;
 mod pixels;
+mod radix;
 mod sort_last;
 mod stages;
 mod tessellate;
+mod trees;
 
 pub use accel::Lbvh;
 pub use bsp::{BspError, BspGrid, BspOptions, BspOrder, BspShot, BspSight, Piece};

@@ -5,7 +5,9 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use micropoly_core::abi::{LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Layout, Sample, Shared};
+use micropoly_core::abi::{
+    LOCAL_BATCH, LOCAL_DRAWS, LOCAL_STACK, Layout, SEE_BLOCK, SORT_BLOCK, SORT_RUN, Sample, Shared,
+};
 use micropoly_core::backend::Device;
 use micropoly_core::kernel::sort_last::{NOBODY, Turn};
 use micropoly_core::known;
@@ -27,6 +29,8 @@ const DEAL_ROWS: u64 =
 /// Bytes of local memory that a work-group needs at most.
 const LOCAL_MEMORY: u64 = 16 << 10;
 
+// Each work-item has a run of a block's keys, and a leaf of a block.
+const _: () = assert!(SORT_BLOCK == SORT_RUN * GROUP as u32 && SEE_BLOCK == GROUP as u32);
 // In LOCAL each work-item has a surface of the batch.
 const _: () = assert!(LOCAL_BATCH == GROUP as u32);
 
@@ -323,6 +327,22 @@ impl Grid {
             }
             (Stage::TessPlaces, _) => Some(Self::of_groups(1, 1)),
             (Stage::TessEvaluate, Items::Count(pieces)) => Some(Self::of_groups(pieces.into(), 1)),
+            // Kernels know by their frame how many there are.
+            (
+                Stage::AccelExtent
+                | Stage::AccelCodes
+                | Stage::AccelTree
+                | Stage::AccelBoxes
+                | Stage::AccelRays
+                | Stage::AccelNearest,
+                Items::Count(count),
+            ) => Some(Self::of_items(count.into())),
+            (Stage::AccelScan, _) => Some(Self::of_groups(1, 1)),
+            // A group a block.
+            (
+                Stage::AccelCount | Stage::AccelScatter | Stage::AccelSee | Stage::AccelFill,
+                Items::Count(blocks),
+            ) => Some(Self::of_groups(blocks.into(), 1)),
             _ => None,
         }
     }

@@ -16,4 +16,4 @@ pub use buffer::OclBuffer;
 pub use device::{Edit, OclDevice, OpenOptions};
 pub use error::OclError;
 pub use list::{DeviceInfo, devices};
-pub use program::{Argument, FILES, Kind, Part, TESS_FILES, Which};
+pub use program::{ACCEL_FILES, Argument, FILES, Kind, Part, TESS_FILES, Which};

@@ -35,6 +35,13 @@ pub const TESS_FILES: &[(&str, &str)] = files! {
     "tess_vertex.cl" "tess_evaluated.cl" "tess_evaluate.cl" "known_answers.cl"
 };
 
+/// The same of the stages of trees.
+pub const ACCEL_FILES: &[(&str, &str)] = files! {
+    "gen.cl" "num.cl" "counts.cl" "accel_box.cl" "accel_extent.cl" "accel_codes.cl" "accel_sort.cl" "accel_count.cl"
+    "accel_scan.cl" "accel_scatter.cl" "accel_tree.cl" "accel_boxes.cl" "accel_query.cl" "accel_see.cl" "accel_fill.cl"
+    "accel_ray.cl" "accel_point.cl" "accel_walk.cl" "accel_rays.cl" "accel_nearest.cl" "known_answers.cl"
+};
+
 /// The file whose place a caller's own levels take.
 const LEVELS_FILE: &str = "tess_levels.cl";
 /// The file whose place a caller's own evaluation takes.
@@ -52,17 +59,30 @@ pub enum Part {
     Frame,
     /// The tessellator's.
     Tessellator,
+    /// Those of trees.
+    Accel,
 }
 
 impl Part {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Frame, Self::Tessellator];
+    /// All.
+    pub const ALL: [Self; 3] = [Self::Frame, Self::Tessellator, Self::Accel];
 
-    /// The one that has a stage. Known answers are in both.
+    /// The one that has a stage. Known answers are in all.
     #[must_use]
     pub const fn of(stage: Stage) -> Self {
         match stage {
             Stage::TessControl | Stage::TessPlaces | Stage::TessEvaluate => Self::Tessellator,
+            Stage::AccelExtent
+            | Stage::AccelCodes
+            | Stage::AccelCount
+            | Stage::AccelScan
+            | Stage::AccelScatter
+            | Stage::AccelTree
+            | Stage::AccelBoxes
+            | Stage::AccelSee
+            | Stage::AccelFill
+            | Stage::AccelRays
+            | Stage::AccelNearest => Self::Accel,
             _ => Self::Frame,
         }
     }
@@ -73,6 +93,7 @@ impl Part {
         match self {
             Self::Frame => FILES,
             Self::Tessellator => TESS_FILES,
+            Self::Accel => ACCEL_FILES,
         }
     }
 
@@ -138,7 +159,7 @@ const fn write<T: Shared>(name: &'static str) -> Argument {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 36] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::Stage(Stage::Scan),
@@ -153,6 +174,17 @@ impl Which {
         Self::Stage(Stage::TessControl),
         Self::Stage(Stage::TessPlaces),
         Self::Stage(Stage::TessEvaluate),
+        Self::Stage(Stage::AccelExtent),
+        Self::Stage(Stage::AccelCodes),
+        Self::Stage(Stage::AccelCount),
+        Self::Stage(Stage::AccelScan),
+        Self::Stage(Stage::AccelScatter),
+        Self::Stage(Stage::AccelTree),
+        Self::Stage(Stage::AccelBoxes),
+        Self::Stage(Stage::AccelSee),
+        Self::Stage(Stage::AccelFill),
+        Self::Stage(Stage::AccelRays),
+        Self::Stage(Stage::AccelNearest),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::ArrangeDraw,
@@ -189,6 +221,17 @@ impl Which {
             Self::Stage(Stage::TessControl) => "stage_tess_control",
             Self::Stage(Stage::TessPlaces) => "stage_tess_places",
             Self::Stage(Stage::TessEvaluate) => "stage_tess_evaluate",
+            Self::Stage(Stage::AccelExtent) => "stage_accel_extent",
+            Self::Stage(Stage::AccelCodes) => "stage_accel_codes",
+            Self::Stage(Stage::AccelCount) => "stage_accel_count",
+            Self::Stage(Stage::AccelScan) => "stage_accel_scan",
+            Self::Stage(Stage::AccelScatter) => "stage_accel_scatter",
+            Self::Stage(Stage::AccelTree) => "stage_accel_tree",
+            Self::Stage(Stage::AccelBoxes) => "stage_accel_boxes",
+            Self::Stage(Stage::AccelSee) => "stage_accel_see",
+            Self::Stage(Stage::AccelFill) => "stage_accel_fill",
+            Self::Stage(Stage::AccelRays) => "stage_accel_rays",
+            Self::Stage(Stage::AccelNearest) => "stage_accel_nearest",
             Self::Stage(Stage::Flush) => "stage_flush",
             Self::Stage(Stage::KnownAnswers) => "stage_known_answers",
             Self::ArrangeDraw => "arrange_draw",
@@ -266,7 +309,7 @@ pub(crate) struct Unbuilt {
 impl Unbuilt {
     pub(crate) fn new(part: Part, options: &OpenOptions<'_>) -> Self {
         let own = match part {
-            Part::Frame => Vec::new(),
+            Part::Frame | Part::Accel => Vec::new(),
             Part::Tessellator => options.own_steps().map(|(_, defines, _)| defines).collect(),
         };
         Self { part, source: source(part, options), options: compiler_options(options), own }

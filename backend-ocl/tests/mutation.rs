@@ -237,6 +237,11 @@ fn stages(file: &str) -> Vec<Stage> {
         "tess_strip.cl" | "tess_surface.cl" | "tess_vertex.cl" | "tess_evaluated.cl" => {
             vec![Stage::TessEvaluate]
         }
+        "accel_box.cl" => vec![Stage::AccelExtent, Stage::AccelCodes, Stage::AccelBoxes],
+        "accel_sort.cl" => vec![Stage::AccelCount, Stage::AccelScatter],
+        "accel_query.cl" => vec![Stage::AccelSee, Stage::AccelFill],
+        "accel_ray.cl" | "accel_walk.cl" => vec![Stage::AccelRays, Stage::AccelNearest],
+        "accel_point.cl" => vec![Stage::AccelNearest],
         "surface.cl" | "border.cl" => vec![Stage::Split, Stage::Bound, Stage::Draw, Stage::Mesh],
         "counts.cl" => {
             vec![Stage::Take, Stage::Scan, Stage::Balance, Stage::Deal, Stage::Local, Stage::MeshPlaces]

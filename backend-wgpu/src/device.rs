@@ -412,6 +412,22 @@ impl WgpuDevice {
             (Stage::KnownAnswers | Stage::Filter | Stage::TessControl, Items::Count(count)) => {
                 Ok(spread(count.div_ceil(ITEMS_A_GROUP)))
             }
+            // Kernels know by their frame how many there are.
+            (
+                Stage::AccelExtent
+                | Stage::AccelCodes
+                | Stage::AccelTree
+                | Stage::AccelBoxes
+                | Stage::AccelRays
+                | Stage::AccelNearest,
+                Items::Count(count),
+            ) => Ok(spread(count.div_ceil(ITEMS_A_GROUP))),
+            (Stage::AccelScan, _) => Ok(Groups::Known(1, 1)),
+            // A group a block.
+            (
+                Stage::AccelCount | Stage::AccelScatter | Stage::AccelSee | Stage::AccelFill,
+                Items::Count(blocks),
+            ) => Ok(spread(blocks)),
             // A group a piece.
             (Stage::TessEvaluate, Items::Count(count)) => Ok(spread(count)),
             // The kernels know how many there are by the length of their buffer.

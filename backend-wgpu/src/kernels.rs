@@ -105,6 +105,24 @@ files! {
     TESS_VERTEX: "tess_vertex",
     TESS_EVALUATED: "tess_evaluated",
     TESS_EVALUATE: "tess_evaluate",
+    ACCEL_BOX: "accel_box",
+    ACCEL_EXTENT: "accel_extent",
+    ACCEL_CODES: "accel_codes",
+    ACCEL_SORT: "accel_sort",
+    ACCEL_COUNT: "accel_count",
+    ACCEL_SCAN: "accel_scan",
+    ACCEL_SCATTER: "accel_scatter",
+    ACCEL_TREE: "accel_tree",
+    ACCEL_BOXES: "accel_boxes",
+    ACCEL_QUERY: "accel_query",
+    ACCEL_SEE: "accel_see",
+    ACCEL_FILL: "accel_fill",
+    ACCEL_OFFSET: "accel_offset",
+    ACCEL_WALK: "accel_walk",
+    ACCEL_RAY: "accel_ray",
+    ACCEL_POINT: "accel_point",
+    ACCEL_RAYS: "accel_rays",
+    ACCEL_NEAREST: "accel_nearest",
     ARRANGE: "arrange",
 }
 
@@ -167,7 +185,7 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 32] = [
+    pub const ALL: [Self; 43] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
@@ -186,6 +204,17 @@ impl Which {
         Self::Stage(Stage::TessControl),
         Self::Stage(Stage::TessPlaces),
         Self::Stage(Stage::TessEvaluate),
+        Self::Stage(Stage::AccelExtent),
+        Self::Stage(Stage::AccelCodes),
+        Self::Stage(Stage::AccelCount),
+        Self::Stage(Stage::AccelScan),
+        Self::Stage(Stage::AccelScatter),
+        Self::Stage(Stage::AccelTree),
+        Self::Stage(Stage::AccelBoxes),
+        Self::Stage(Stage::AccelSee),
+        Self::Stage(Stage::AccelFill),
+        Self::Stage(Stage::AccelRays),
+        Self::Stage(Stage::AccelNearest),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::Arrange,
@@ -208,7 +237,7 @@ impl Which {
     }
 
     /// Is it compiled only when it is first needed? Those of LOCAL, of layers, of sort-last, of
-    /// meshes, of the tessellator, and for any patch and profile are.
+    /// meshes, of the tessellator, of trees, and for any patch and profile are.
     const fn can_wait(self) -> bool {
         matches!(
             self,
@@ -220,6 +249,17 @@ impl Which {
                     | Stage::TessControl
                     | Stage::TessPlaces
                     | Stage::TessEvaluate
+                    | Stage::AccelExtent
+                    | Stage::AccelCodes
+                    | Stage::AccelCount
+                    | Stage::AccelScan
+                    | Stage::AccelScatter
+                    | Stage::AccelTree
+                    | Stage::AccelBoxes
+                    | Stage::AccelSee
+                    | Stage::AccelFill
+                    | Stage::AccelRays
+                    | Stage::AccelNearest
             ) | Self::BoundAny
                 | Self::BoundFlat
                 | Self::LocalAny
@@ -272,6 +312,17 @@ impl Which {
             Self::Stage(Stage::TessControl) => &[Stage::TessControl],
             Self::Stage(Stage::TessPlaces) => &[Stage::TessPlaces],
             Self::Stage(Stage::TessEvaluate) => &[Stage::TessEvaluate],
+            Self::Stage(Stage::AccelExtent) => &[Stage::AccelExtent],
+            Self::Stage(Stage::AccelCodes) => &[Stage::AccelCodes],
+            Self::Stage(Stage::AccelCount) => &[Stage::AccelCount],
+            Self::Stage(Stage::AccelScan) => &[Stage::AccelScan],
+            Self::Stage(Stage::AccelScatter) => &[Stage::AccelScatter],
+            Self::Stage(Stage::AccelTree) => &[Stage::AccelTree],
+            Self::Stage(Stage::AccelBoxes) => &[Stage::AccelBoxes],
+            Self::Stage(Stage::AccelSee) => &[Stage::AccelSee],
+            Self::Stage(Stage::AccelFill) => &[Stage::AccelFill],
+            Self::Stage(Stage::AccelRays) => &[Stage::AccelRays],
+            Self::Stage(Stage::AccelNearest) => &[Stage::AccelNearest],
             Self::Stage(Stage::Flush) => &[Stage::Flush],
             Self::Stage(Stage::KnownAnswers) => &[Stage::KnownAnswers],
             Self::Arrange => &[Stage::Bound, Stage::Split],
@@ -386,6 +437,21 @@ impl Which {
                 TESS_EVALUATED,
                 TESS_EVALUATE,
             ],
+            Self::Stage(Stage::AccelExtent) => &[GEN, ITEMS, ACCEL_BOX, ACCEL_EXTENT],
+            Self::Stage(Stage::AccelCodes) => &[GEN, ITEMS, COUNTS, NUM, ACCEL_BOX, ACCEL_CODES],
+            Self::Stage(Stage::AccelCount) => &[GEN, ITEMS, COUNTS, ACCEL_SORT, ACCEL_COUNT],
+            Self::Stage(Stage::AccelScan) => &[GEN, COUNTS, ACCEL_SCAN],
+            Self::Stage(Stage::AccelScatter) => &[GEN, ITEMS, COUNTS, ACCEL_SORT, ACCEL_SCATTER],
+            Self::Stage(Stage::AccelTree) => &[GEN, ITEMS, ACCEL_TREE],
+            Self::Stage(Stage::AccelBoxes) => &[GEN, ITEMS, ACCEL_BOX, ACCEL_BOXES],
+            Self::Stage(Stage::AccelSee) => &[GEN, ITEMS, NUM, ACCEL_QUERY, ACCEL_SEE],
+            Self::Stage(Stage::AccelFill) => &[GEN, ITEMS, NUM, ACCEL_QUERY, ACCEL_FILL],
+            Self::Stage(Stage::AccelRays) => {
+                &[GEN, ITEMS, NUM, ACCEL_OFFSET, ACCEL_WALK, ACCEL_RAY, ACCEL_RAYS]
+            }
+            Self::Stage(Stage::AccelNearest) => {
+                &[GEN, ITEMS, NUM, ACCEL_OFFSET, ACCEL_WALK, ACCEL_POINT, ACCEL_NEAREST]
+            }
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],

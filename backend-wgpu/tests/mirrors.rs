@@ -119,7 +119,11 @@ fn entry_name(module: &Module, ty: Handle<Type>) -> String {
     match &module.types[ty] {
         Type { inner: TypeInner::Array { base, .. }, .. } => entry_name(module, *base),
         Type { name: Some(name), .. } => name.clone(),
-        Type { inner: TypeInner::Scalar(scalar), .. } if scalar.kind == ScalarKind::Uint => "u32".to_owned(),
+        Type { inner: TypeInner::Scalar(scalar) | TypeInner::Atomic(scalar), .. }
+            if scalar.kind == ScalarKind::Uint =>
+        {
+            "u32".to_owned()
+        }
         Type { inner: TypeInner::Scalar(scalar), .. } if scalar.kind == ScalarKind::Float => "f32".to_owned(),
         other => panic!("{other:?}"),
     }

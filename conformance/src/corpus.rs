@@ -5,6 +5,7 @@
 mod groups;
 mod scenes;
 mod tessellations;
+mod trees;
 
 use std::ops::RangeInclusive;
 
@@ -69,6 +70,16 @@ pub fn input(stage: Stage, round: u64) -> Input {
         Stage::TessControl => tessellations::control(&mut random),
         Stage::TessPlaces => tessellations::places(&mut random),
         Stage::TessEvaluate => tessellations::evaluate(&mut random),
+        Stage::AccelExtent => trees::extent(&mut random),
+        Stage::AccelCodes => trees::codes(&mut random),
+        Stage::AccelCount => trees::count(&mut random),
+        Stage::AccelScan => trees::scan(&mut random),
+        Stage::AccelScatter => trees::scatter(&mut random),
+        Stage::AccelTree => trees::tree(&mut random),
+        Stage::AccelBoxes => trees::fitted(&mut random),
+        Stage::AccelSee => trees::see(&mut random),
+        Stage::AccelFill => trees::fill(&mut random),
+        Stage::AccelRays | Stage::AccelNearest => trees::probes(&mut random),
         Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
         Stage::KnownAnswers => known(&mut random),
     };
@@ -96,6 +107,17 @@ const fn number(stage: Stage) -> u64 {
         Stage::TessControl => 16,
         Stage::TessPlaces => 17,
         Stage::TessEvaluate => 18,
+        Stage::AccelExtent => 19,
+        Stage::AccelCodes => 20,
+        Stage::AccelCount => 21,
+        Stage::AccelScan => 22,
+        Stage::AccelScatter => 23,
+        Stage::AccelTree => 24,
+        Stage::AccelBoxes => 25,
+        Stage::AccelSee => 26,
+        Stage::AccelFill => 27,
+        Stage::AccelRays => 28,
+        Stage::AccelNearest => 29,
     }
 }
 

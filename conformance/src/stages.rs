@@ -3,9 +3,10 @@
 use std::fmt;
 
 use micropoly_core::abi::{
-    Colour, Control, Draw, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Object, Patch,
-    Pixel, Question, Sample, Scalar, Shared, Slot, Surface, Tap, TessFrame, TessLevels, TessPatch,
-    TessRecord, TessTotals, TessVertex, Verdict,
+    AccelFrame, Bounds, Colour, Control, Draw, Found, Frame, Frustum, Group, Layout, Limits, MeshPlace,
+    MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Scalar, Shared, Slot,
+    SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex, Triangle,
+    Verdict,
 };
 use micropoly_core::backend::Device;
 use micropoly_core::stage::{Access, Items, Stage};
@@ -100,7 +101,8 @@ fn transfer<D: Device>(
     by_name!(
         u32, f32, TessFrame, TessPatch, TessLevels, TessRecord, TessTotals, TessVertex, Patch, Object, Frame,
         Surface, Draw, Verdict, Slot, Control, Group, Question, Limits, Sample, Colour, MeshVertex,
-        MeshPlace, MeshTotals, Tap, Pixel
+        MeshPlace, MeshTotals, Tap, Pixel, AccelFrame, Bounds, Node, SortKey, Frustum, Triangle, Probe,
+        Found
     )
 }
 

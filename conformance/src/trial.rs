@@ -33,7 +33,7 @@ const FOUND: &str = "\nfound: ";
 /// No mutant is ever seen again.
 const NO_CACHES: [(&str, &str); 2] = [("POCL_KERNEL_CACHE", "0"), ("MESA_SHADER_CACHE_DISABLE", "true")];
 /// Stages that are opened together, those first that are compiled and run soonest.
-const QUICK_TO_SLOW: [&[Stage]; 7] = [
+const QUICK_TO_SLOW: [&[Stage]; 8] = [
     &[
         Stage::Take,
         Stage::Flush,
@@ -47,6 +47,19 @@ const QUICK_TO_SLOW: [&[Stage]; 7] = [
         Stage::Filter,
     ],
     &[Stage::TessControl, Stage::TessPlaces, Stage::TessEvaluate],
+    &[
+        Stage::AccelExtent,
+        Stage::AccelCodes,
+        Stage::AccelCount,
+        Stage::AccelScan,
+        Stage::AccelScatter,
+        Stage::AccelTree,
+        Stage::AccelBoxes,
+        Stage::AccelSee,
+        Stage::AccelFill,
+        Stage::AccelRays,
+        Stage::AccelNearest,
+    ],
     &[Stage::Bound],
     &[Stage::Mesh],
     &[Stage::Local],

@@ -184,6 +184,23 @@ shared_constants! {
     /// Most patches that are placed at once: all their vertices and indices are counted in 32 bits.
     const TESS_WINDOW: u32 = 1 << 17;
 
+    /// Bits of a digit by which codes are sorted.
+    const SORT_BITS: u32 = 4;
+    /// Digits.
+    const SORT_DIGITS: u32 = 1 << SORT_BITS;
+    /// Keys that one invocation, or work-item, sorts …
+    const SORT_RUN: u32 = 16;
+    /// … and those of a group.
+    const SORT_BLOCK: u32 = 64 * SORT_RUN;
+    /// Leaves that a group looks at for a frustum.
+    const SEE_BLOCK: u32 = 64;
+    /// No node, no parent, no primitive.
+    const NOTHING: u32 = u32::MAX;
+    /// [`Found::primitive`] where a device has given up before it had looked at everything.
+    const UNFINISHED: u32 = NOTHING - 1;
+    /// Inner nodes on the way to a leaf, at most: bits of a code, and of a place among equal ones.
+    const DEEPEST: u32 = 64 + 32;
+
     /// Most times that bumps are added, each twice as fine as the last.
     const MAX_OCTAVES: u32 = 8;
     /// Bumps have no shape farther than so many of them from the origin.
@@ -629,6 +646,82 @@ shared_structs! {
         normal: [f32; 3],
         /// Texture coordinates.
         uv: [f32; 2],
+    }
+
+    /// An axis-aligned box; `low` is above `high` where there is nothing in it.
+    struct Bounds {
+        /// Smallest coordinates.
+        low: [f32; 3],
+        /// Largest coordinates.
+        high: [f32; 3],
+    }
+
+    /// A node of a tree (see [`crate::accel`]): the box about all that is below, and its children; or a leaf's primitive.
+    struct Node {
+        /// Smallest coordinates.
+        low: [f32; 3],
+        /// Largest coordinates.
+        high: [f32; 3],
+        /// First child; of a leaf the number of its primitive.
+        first: u32,
+        /// Second child; of a leaf [`NOTHING`].
+        second: u32,
+    }
+
+    /// What building a tree, and asking it, goes by.
+    struct AccelFrame {
+        /// Primitives.
+        count: u32,
+        /// Bits of a coordinate in codes.
+        bits: u32,
+        /// Bits of a code below the digit by which it is sorted now.
+        shift: u32,
+        /// How many counts there are to be summed up.
+        counts: u32,
+        /// How many frusta, rays or points there are.
+        questions: u32,
+        /// Always 0, which compilers cannot know.
+        zero: u32,
+    }
+
+    /// Where a primitive is on the curve through all of space.
+    struct SortKey {
+        /// Lower bits of the code.
+        low: u32,
+        /// Upper bits.
+        high: u32,
+        /// Whose code it is.
+        primitive: u32,
+    }
+
+    /// What is within six planes.
+    struct Frustum {
+        /// Four numbers each (see [`crate::accel::query::Plane`]).
+        planes: [f32; 24],
+    }
+
+    /// A triangle.
+    struct Triangle {
+        /// Its corners, three coordinates each.
+        corners: [f32; 9],
+    }
+
+    /// A ray, or a point.
+    struct Probe {
+        /// Where it starts, or is.
+        origin: [f32; 3],
+        /// Where the ray goes, about 1 long.
+        direction: [f32; 3],
+        /// How far the ray goes, in lengths of its direction; or the square of how far to look around the point.
+        far: f32,
+    }
+
+    /// What a ray hits first, or what is nearest to a point.
+    struct Found {
+        /// Which primitive, [`NOTHING`] or [`UNFINISHED`]; of several at the same distance the lowest.
+        primitive: u32,
+        /// Where along the ray; or the distance squared. 0 where nothing is found.
+        distance: f32,
     }
 
     /// A sample that a pixel is made of.

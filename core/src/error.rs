@@ -46,6 +46,11 @@ pub enum PlanError {
         /// In which way, and what to do about it.
         why: &'static str,
     },
+    /// A device ends loops too early for a question about a tree to be answered.
+    Unfinished {
+        /// Name of the stage.
+        stage: &'static str,
+    },
     /// BREADTH cannot make a mesh: its buffers of draws have no bound.
     BreadthMesh,
     /// A buffer ran full although its size was proven: smaller buffers were passed than the plan asked for.
@@ -83,6 +88,9 @@ impl fmt::Display for PlanError {
                 )
             }
             Self::Tessellation { why } => f.write_str(why),
+            Self::Unfinished { stage } => {
+                write!(f, "the device's driver ends loops of {stage} before they are through")
+            }
             Self::BreadthMesh => {
                 write!(f, "the breadth scheduler cannot make a mesh; use any other, the mesh is the same")
             }

@@ -2,9 +2,10 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    Colour, Control, Draw, FLAG_SORT_LAST, Frame, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex,
-    Object, Patch, Pixel, Question, Sample, Shared, Slot, Surface, Tap, TessFrame, TessLevels, TessPatch,
-    TessRecord, TessTotals, TessVertex, Verdict,
+    AccelFrame, Bounds, Colour, Control, Draw, FLAG_SORT_LAST, Found, Frame, Frustum, Group, Layout, Limits,
+    MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Shared, Slot,
+    SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex, Triangle,
+    Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -119,6 +120,28 @@ pub enum Stage {
     TessPlaces,
     /// The tessellator: vertices and indices: [`crate::kernel::tess_evaluate`].
     TessEvaluate,
+    /// Trees: the box about all primitives: [`crate::accel::extent`].
+    AccelExtent,
+    /// Trees: where primitives are: [`crate::accel::morton`].
+    AccelCodes,
+    /// Trees: how many keys of each block have which digit: [`crate::accel::sort::count`].
+    AccelCount,
+    /// Trees: sums of the counts before each: [`crate::accel::sort::scan`].
+    AccelScan,
+    /// Trees: keys to their places: [`crate::accel::sort::scatter`].
+    AccelScatter,
+    /// Trees: children and parents: [`crate::accel::hierarchy`].
+    AccelTree,
+    /// Trees: boxes from the leaves upwards: [`crate::accel::tree::fit`].
+    AccelBoxes,
+    /// Trees: how many leaves of each block a frustum sees: [`crate::accel::query`].
+    AccelSee,
+    /// Trees: which ones: [`crate::accel::query`].
+    AccelFill,
+    /// Trees: what rays hit first: [`crate::accel::ray`].
+    AccelRays,
+    /// Trees: what is nearest to points: [`crate::accel::nearest`].
+    AccelNearest,
     /// Empties the draw buffer: [`crate::kernel::take::flush`].
     Flush,
     /// Does the device compute as it must? [`crate::kernel::known_answers`].
@@ -127,7 +150,7 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 29] = [
         Self::Take,
         Self::Bound,
         Self::Scan,
@@ -144,6 +167,17 @@ impl Stage {
         Self::TessControl,
         Self::TessPlaces,
         Self::TessEvaluate,
+        Self::AccelExtent,
+        Self::AccelCodes,
+        Self::AccelCount,
+        Self::AccelScan,
+        Self::AccelScatter,
+        Self::AccelTree,
+        Self::AccelBoxes,
+        Self::AccelSee,
+        Self::AccelFill,
+        Self::AccelRays,
+        Self::AccelNearest,
         Self::Flush,
         Self::KnownAnswers,
     ];
@@ -168,6 +202,17 @@ impl Stage {
             Self::TessControl => "tess_control",
             Self::TessPlaces => "tess_places",
             Self::TessEvaluate => "tess_evaluate",
+            Self::AccelExtent => "accel_extent",
+            Self::AccelCodes => "accel_codes",
+            Self::AccelCount => "accel_count",
+            Self::AccelScan => "accel_scan",
+            Self::AccelScatter => "accel_scatter",
+            Self::AccelTree => "accel_tree",
+            Self::AccelBoxes => "accel_boxes",
+            Self::AccelSee => "accel_see",
+            Self::AccelFill => "accel_fill",
+            Self::AccelRays => "accel_rays",
+            Self::AccelNearest => "accel_nearest",
             Self::Flush => "flush",
             Self::KnownAnswers => "known_answers",
         }
@@ -332,6 +377,86 @@ impl Stage {
                         read::<TessTotals>("totals"),
                         write::<TessVertex>("tess_vertices"),
                         write::<u32>("indices"),
+                    ]
+                }
+            }
+            Self::AccelExtent => {
+                const { &[read::<AccelFrame>("accel_frame"), read::<Bounds>("boxes"), write::<u32>("extent")] }
+            }
+            Self::AccelCodes => {
+                const {
+                    &[
+                        read::<AccelFrame>("accel_frame"),
+                        read::<Bounds>("boxes"),
+                        read::<u32>("extent"),
+                        write::<SortKey>("keys"),
+                    ]
+                }
+            }
+            Self::AccelCount => {
+                const { &[read::<AccelFrame>("accel_frame"), read::<SortKey>("keys"), write::<u32>("counts")] }
+            }
+            Self::AccelScan => const { &[read::<AccelFrame>("accel_frame"), write::<u32>("counts")] },
+            Self::AccelScatter => {
+                const {
+                    &[
+                        read::<AccelFrame>("accel_frame"),
+                        read::<SortKey>("keys"),
+                        read::<u32>("counts"),
+                        write::<SortKey>("sorted"),
+                    ]
+                }
+            }
+            Self::AccelTree => {
+                const {
+                    &[
+                        read::<AccelFrame>("accel_frame"),
+                        read::<SortKey>("keys"),
+                        write::<Node>("nodes"),
+                        write::<u32>("parents"),
+                    ]
+                }
+            }
+            Self::AccelBoxes => {
+                const {
+                    &[
+                        read::<AccelFrame>("accel_frame"),
+                        read::<Bounds>("boxes"),
+                        read::<u32>("parents"),
+                        write::<u32>("visits"),
+                        write::<Node>("nodes"),
+                    ]
+                }
+            }
+            Self::AccelSee => {
+                const {
+                    &[
+                        read::<AccelFrame>("accel_frame"),
+                        read::<Node>("nodes"),
+                        read::<Frustum>("frusta"),
+                        write::<u32>("counts"),
+                    ]
+                }
+            }
+            Self::AccelFill => {
+                const {
+                    &[
+                        read::<AccelFrame>("accel_frame"),
+                        read::<Node>("nodes"),
+                        read::<Frustum>("frusta"),
+                        read::<u32>("counts"),
+                        write::<u32>("seen"),
+                    ]
+                }
+            }
+            Self::AccelRays | Self::AccelNearest => {
+                const {
+                    &[
+                        read::<AccelFrame>("accel_frame"),
+                        read::<Node>("nodes"),
+                        read::<Triangle>("triangles"),
+                        read::<Probe>("probes"),
+                        write::<Found>("found"),
                     ]
                 }
             }

@@ -1,11 +1,14 @@
 //! The linear bounding volume hierarchy: sound for every soup, and the same whoever builds it.
 
+use micropoly_core::abi::{AccelFrame, Found, Frustum, Probe, Triangle};
 use micropoly_core::accel::bounds::Bounds;
 use micropoly_core::accel::hierarchy::span;
 use micropoly_core::accel::morton::{Grid, Precision};
-use micropoly_core::accel::query::{Plane, in_frustum, is_visible};
-use micropoly_core::accel::ray::{Ray, counted, first_hit, nearer};
-use micropoly_core::accel::tree::{Fault, Node, fit, inner, node_count, validate};
+use micropoly_core::accel::nearest::Around;
+use micropoly_core::accel::query::{Plane, blocks, in_frustum, is_visible, seen};
+use micropoly_core::accel::ray::{Ray, Shot};
+use micropoly_core::accel::tree::{EMPTY, Fault, Node, fit, inner, link, node_count, validate};
+use micropoly_core::accel::walk::{Search, find, find_one};
 
 struct Tree {
     boxes: Vec<Bounds>,
@@ -22,9 +25,12 @@ fn built(boxes: Vec<Bounds>, precision: Precision) -> Tree {
     let codes: Vec<u64> = keys.iter().map(|(code, _)| *code).collect();
     let inner_count = boxes.len().saturating_sub(1) as u32;
     let mut nodes: Vec<Node> = (0..inner_count).map(|index| inner(&codes, index)).collect();
-    nodes.extend(keys.iter().map(|&(_, primitive)| Node::leaf(primitive, boxes[primitive as usize])));
+    nodes.extend(keys.iter().map(|&(_, primitive)| Node::leaf(primitive, EMPTY)));
     let mut parents = vec![0; nodes.len()];
-    fit(&mut nodes, &mut parents, &mut vec![0; inner_count as usize]);
+    link(&nodes, &mut parents, inner_count as usize);
+    let visits = &mut vec![0; inner_count as usize];
+    fit(&mut nodes, &parents, &boxes, visits);
+    assert!(visits.iter().all(|visit| *visit == 0));
     Tree { boxes, codes, nodes, parents }
 }
 
@@ -110,7 +116,7 @@ fn faults_are_found() {
         let mut tree = fresh();
         let node = random.usize(0..tree.nodes.len());
         match random.u32(0..4) {
-            0 => tree.nodes[node].bounds.low[random.usize(0..3)] -= 1.0,
+            0 => tree.nodes[node].low[random.usize(0..3)] -= 1.0,
             1 => tree.nodes[node].first = 1000,
             2 => tree.parents[node] ^= 1,
             _ => {
@@ -146,15 +152,32 @@ fn a_frustum_finds_what_looking_at_every_box_does() {
     assert!(found_some > 50);
 }
 
-type Triangle = [[f32; 3]; 3];
-
 fn triangles(random: &mut fastrand::Rng, count: usize) -> Vec<Triangle> {
     (0..count)
         .map(|_| {
             let place: [f32; 3] = std::array::from_fn(|_| 4.0 * random.f32() - 2.0);
-            std::array::from_fn(|_| place.map(|x| x + 0.6 * random.f32()))
+            Triangle { corners: std::array::from_fn(|k| place[k % 3] + 0.6 * random.f32()) }
         })
         .collect()
+}
+
+/// Triangles, each of them twice, of which the first counts; and the tree over them.
+fn doubled(random: &mut fastrand::Rng) -> (Vec<Triangle>, Tree) {
+    let count = random.usize(0..300);
+    let mut all = triangles(random, count);
+    all.extend(all.clone());
+    let boxes = all.iter().map(|triangle| Bounds::of(&triangle.points())).collect();
+    (all, built(boxes, Precision::Bits30))
+}
+
+/// What a search finds, which is the same as by looking at every triangle.
+fn found(search: &impl Search, tree: &Tree) -> Found {
+    let found = find(search, &tree.nodes);
+    let all = (0..).zip(&tree.boxes);
+    let wanted =
+        all.fold(Found::NONE, |wanted, (primitive, bounds)| wanted.or(find_one(search, primitive, bounds)));
+    assert_eq!(found, wanted);
+    found
 }
 
 #[test]
@@ -162,30 +185,45 @@ fn a_ray_hits_first_what_looking_at_every_triangle_says() {
     let mut random = fastrand::Rng::with_seed(6);
     let mut hits = 0;
     for _ in 0..40 {
-        let count = random.usize(0..300);
-        let mut all = triangles(&mut random, count);
-        let twice = all.clone();
-        all.extend(twice); // of two in the same place the first counts
-        let tree = built(all.iter().map(|triangle| Bounds::of(triangle)).collect(), Precision::Bits30);
+        let (all, tree) = doubled(&mut random);
         for k in 0..50 {
             let mut any = || 6.0 * random.f32() - 3.0;
             // Some along an axis, and some through a corner.
             let direction = match (k % 5, all.first()) {
                 (0, _) => [0.0, 1.0, 0.0],
-                (1, Some(triangle)) => triangle[0],
+                (1, Some(triangle)) => triangle.points()[0],
                 _ => [any(), any(), any()],
             };
             let origin = if k % 5 == 1 { [0.0; 3] } else { [any(), any(), any()] };
-            let ray = Ray::new(origin, direction, 5.0);
-            let found = first_hit(&tree.nodes, &ray, |primitive| ray.hit(all[primitive as usize]));
-            let wanted = (0..).zip(&all).fold(None, |wanted, (primitive, triangle)| {
-                nearer(wanted, counted(&ray, &tree.boxes[primitive as usize], primitive, ray.hit(*triangle)))
-            });
-            assert_eq!(found, wanted);
-            hits += usize::from(found.is_some());
+            let ray = Ray::new(&Probe { origin, direction, far: 5.0 });
+            let found = found(&Shot { ray, triangles: &all }, &tree);
+            hits += usize::from(found != Found::NONE);
+            assert!(found == Found::NONE || found.primitive < all.len() as u32 / 2);
         }
     }
     assert!(hits > 200, "{hits}");
+}
+
+#[test]
+fn what_is_nearest_is_what_looking_at_every_triangle_says() {
+    let mut random = fastrand::Rng::with_seed(8);
+    let mut none = 0;
+    for _ in 0..40 {
+        let (all, tree) = doubled(&mut random);
+        for k in 0..50 {
+            let mut any = || 8.0 * random.f32() - 4.0;
+            let mut origin = [any(), any(), any()];
+            if let (0, Some(triangle)) = (k % 5, all.first()) {
+                origin = triangle.points()[1];
+            }
+            let probe = Probe { origin, far: 1.0, ..Probe::default() };
+            let found = found(&Around { probe, triangles: &all }, &tree);
+            none += usize::from(found == Found::NONE);
+            assert!(found == Found::NONE || found.primitive < all.len() as u32 / 2);
+            assert!(k % 5 > 0 || all.is_empty() || found.distance < 1.0e-10);
+        }
+    }
+    assert!((200..1800).contains(&none), "{none}");
 }
 
 #[test]
@@ -195,15 +233,35 @@ fn hits_lie_on_the_triangle() {
     for triangle in triangles(&mut random, 3000) {
         // Through a point of the triangle, or beside it.
         let (u, v) = (1.5 * random.f32() - 0.25, 1.5 * random.f32() - 0.25);
-        let [a, b, c] = triangle;
+        let [a, b, c] = triangle.points();
         let target: [f32; 3] = std::array::from_fn(|k| a[k] + u * (b[k] - a[k]) + v * (c[k] - a[k]));
         let origin: [f32; 3] = std::array::from_fn(|_| 8.0 * random.f32() - 4.0);
-        let ray = Ray::new(origin, std::array::from_fn(|k| target[k] - origin[k]), 2.0);
-        let (hit, edge) = (ray.hit(triangle), u.min(v).min(1.0 - u - v));
+        let direction = std::array::from_fn(|k| target[k] - origin[k]);
+        let hit = Ray::new(&Probe { origin, direction, far: 2.0 }).hit([a, b, c]);
+        let edge = u.min(v).min(1.0 - u - v);
         if edge.abs() > 1.0e-3 {
             assert!(hit.is_none_or(|t| edge > 0.0 && (t - 1.0).abs() < 1.0e-2), "{hit:?} {u} {v}");
         }
         hits += usize::from(hit.is_some() && edge > 0.0);
     }
     assert!(hits > 500, "{hits}");
+}
+
+#[test]
+fn several_frusta_see_leaf_by_leaf_what_each_sees_by_itself() {
+    let mut random = fastrand::Rng::with_seed(9);
+    let tree = built(soup(&mut random, 300, 10.0), Precision::Bits63);
+    let mut any = || 2.0 * random.f32() - 1.0;
+    let planes: Vec<[Plane; 3]> =
+        (0..3).map(|_| [(); 3].map(|()| [any(), any(), any(), 1.0 + any()])).collect();
+    let frusta: Vec<Frustum> = planes.iter().map(|planes| Frustum::new(planes)).collect();
+    let frame = AccelFrame { count: 300, ..AccelFrame::default() };
+    for (index, planes) in (0..).zip(&planes) {
+        let mut wanted = Vec::new();
+        in_frustum(&tree.nodes, planes, |primitive| wanted.push(primitive));
+        let blocks = index * blocks(300)..(index + 1) * blocks(300);
+        let found: Vec<u32> = blocks.flat_map(|block| seen(&frame, &tree.nodes, &frusta, block)).collect();
+        assert_eq!(found, wanted);
+        assert!(!found.is_empty() && found.len() < 300);
+    }
 }

@@ -384,6 +384,12 @@ pub(crate) struct BenchArguments {
     #[cfg(feature = "cpu")]
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "tess"])]
     pub(crate) bsp: bool,
+    /// Measure how trees over the triangles of this mesh are built instead, on the CPU, beside the `obvhs` crate's fastest
+    /// preset.
+    #[cfg(feature = "cpu")]
+    #[arg(long, value_name = "MESH.obj",
+          conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "tess", "scenes"])]
+    pub(crate) accel: Option<PathBuf>,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.
     #[arg(long, conflicts_with = "at")]

@@ -13,6 +13,8 @@ macro_rules! say {
 mod accel;
 mod args;
 mod bench;
+#[cfg(feature = "cpu")]
+mod bench_accel;
 mod bench_cage;
 mod bench_dicing;
 mod bench_raster;
@@ -64,6 +66,10 @@ pub(crate) fn main() -> ExitCode {
         Command::TessPattern(arguments) => tess_pattern::run(&arguments),
         #[cfg(feature = "cpu")]
         Command::Bench(arguments) if arguments.bsp => bsp::bench(&arguments),
+        #[cfg(feature = "cpu")]
+        Command::Bench(ref arguments) if let Some(mesh) = &arguments.accel => {
+            bench_accel::run(mesh, arguments)
+        }
         Command::Bench(arguments) if arguments.tess => bench_tess::run(&arguments),
         Command::Bench(arguments) if arguments.cage => bench_cage::run(&arguments),
         Command::Bench(arguments) if arguments.raster => bench_raster::run(&arguments),

@@ -60,6 +60,14 @@
 #define PIECE_VERTICES 128u
 #define PIECE_PRIMITIVES 256u
 #define TESS_WINDOW 131072u
+#define SORT_BITS 4u
+#define SORT_DIGITS 16u
+#define SORT_RUN 16u
+#define SORT_BLOCK 1024u
+#define SEE_BLOCK 64u
+#define NOTHING 4294967295u
+#define UNFINISHED 4294967294u
+#define DEEPEST 96u
 #define MAX_OCTAVES 8u
 #define LATTICE_END 4.194304e6f
 #define LATTICE_NEAR 9.536743e-7f
@@ -221,6 +229,52 @@ typedef struct {
     float normal[3];
     float uv[2];
 } TessVertex;
+
+typedef struct {
+    float low[3];
+    float high[3];
+} Bounds;
+
+typedef struct {
+    float low[3];
+    float high[3];
+    uint first;
+    uint second;
+} Node;
+
+typedef struct {
+    uint count;
+    uint bits;
+    uint shift;
+    uint counts;
+    uint questions;
+    uint zero;
+} AccelFrame;
+
+typedef struct {
+    uint low;
+    uint high;
+    uint primitive;
+} SortKey;
+
+typedef struct {
+    float planes[24];
+} Frustum;
+
+typedef struct {
+    float corners[9];
+} Triangle;
+
+typedef struct {
+    float origin[3];
+    float direction[3];
+    float far;
+} Probe;
+
+typedef struct {
+    uint primitive;
+    float distance;
+} Found;
 
 typedef struct {
     float weight;

@@ -60,6 +60,14 @@ const LEVEL_STADLBAUER: u32 = 1073741824u;
 const PIECE_VERTICES: u32 = 128u;
 const PIECE_PRIMITIVES: u32 = 256u;
 const TESS_WINDOW: u32 = 131072u;
+const SORT_BITS: u32 = 4u;
+const SORT_DIGITS: u32 = 16u;
+const SORT_RUN: u32 = 16u;
+const SORT_BLOCK: u32 = 1024u;
+const SEE_BLOCK: u32 = 64u;
+const NOTHING: u32 = 4294967295u;
+const UNFINISHED: u32 = 4294967294u;
+const DEEPEST: u32 = 96u;
 const MAX_OCTAVES: u32 = 8u;
 const LATTICE_END: f32 = 4.194304e6f;
 const LATTICE_NEAR: f32 = 9.536743e-7f;
@@ -220,6 +228,52 @@ struct TessVertex {
     position: array<f32, 3>,
     normal: array<f32, 3>,
     uv: array<f32, 2>,
+}
+
+struct Bounds {
+    low: array<f32, 3>,
+    high: array<f32, 3>,
+}
+
+struct Node {
+    low: array<f32, 3>,
+    high: array<f32, 3>,
+    first: u32,
+    second: u32,
+}
+
+struct AccelFrame {
+    count: u32,
+    bits: u32,
+    shift: u32,
+    counts: u32,
+    questions: u32,
+    zero: u32,
+}
+
+struct SortKey {
+    low: u32,
+    high: u32,
+    primitive: u32,
+}
+
+struct Frustum {
+    planes: array<f32, 24>,
+}
+
+struct Triangle {
+    corners: array<f32, 9>,
+}
+
+struct Probe {
+    origin: array<f32, 3>,
+    direction: array<f32, 3>,
+    far: f32,
+}
+
+struct Found {
+    primitive: u32,
+    distance: f32,
 }
 
 struct Tap {

@@ -1,19 +1,8 @@
 //! Axis-aligned boxes.
 #![deny(clippy::float_arithmetic)]
 
-use bytemuck::{Pod, Zeroable};
-
+pub use crate::abi::Bounds;
 use crate::num::{add, max, min, mul, sub};
-
-/// An axis-aligned box; `low` is above `high` where there is nothing in it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Bounds {
-    /// Smallest coordinates.
-    pub low: [f32; 3],
-    /// Largest coordinates.
-    pub high: [f32; 3],
-}
 
 impl Bounds {
     /// Of nothing.
@@ -26,7 +15,7 @@ impl Bounds {
         points.iter().fold(Self::NONE, |bounds, point| bounds.union(Self { low: *point, high: *point }))
     }
 
-    /// The smallest box about two.
+    /// The smallest box about two. Devices compare bits, since some take the smallest numbers for 0.
     #[inline(always)]
     #[must_use]
     pub const fn union(self, other: Self) -> Self {

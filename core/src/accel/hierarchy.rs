@@ -29,7 +29,8 @@ impl Span {
 
 /// How many leading bits the codes of two leaves share; -1 if there is no second one.
 #[inline(always)]
-fn common(codes: &[u64], a: u32, b: i64) -> i32 {
+#[must_use]
+pub fn common(codes: &[u64], a: u32, b: i64) -> i32 {
     if b < 0 || b >= codes.len() as i64 {
         return -1;
     }

@@ -2,7 +2,8 @@
 #![deny(clippy::float_arithmetic)]
 
 use super::bounds::Bounds;
-use crate::num::{add, floor, max, mul, sub, unit_scale};
+use crate::abi::SortKey;
+use crate::num::{add, floor, flush, flush3, max, mul, scale3, sub, unit_scale};
 
 /// How fine codes are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,23 +35,26 @@ const HALF_SMALL: f32 = 0.5 * SMALL;
 pub struct Grid {
     low: [f32; 3],
     scale: f32,
-    precision: Precision,
+    bits: u32,
 }
 
 impl Grid {
     /// The grid whose cells codes count. All axes have cells of the same size, a power of two, so that nothing is rounded but
-    /// the place within the box.
+    /// the place within the box. What is nearer to 0 than 2⁻⁶³ is taken to be there.
     #[must_use]
     pub const fn new(bounds: &Bounds, precision: Precision) -> Self {
-        let low = [mul(bounds.low[0], SMALL), mul(bounds.low[1], SMALL), mul(bounds.low[2], SMALL)];
-        let sides = [
-            sub(mul(bounds.high[0], SMALL), low[0]),
-            sub(mul(bounds.high[1], SMALL), low[1]),
-            sub(mul(bounds.high[2], SMALL), low[2]),
-        ];
+        Self::with_bits(bounds, precision.bits())
+    }
+
+    /// The same with so many bits a coordinate.
+    #[must_use]
+    pub const fn with_bits(bounds: &Bounds, bits: u32) -> Self {
+        let low = scale3(flush3(bounds.low), SMALL);
+        let high = scale3(flush3(bounds.high), SMALL);
+        let sides = [sub(high[0], low[0]), sub(high[1], low[1]), sub(high[2], low[2])];
         // The largest side becomes 1 to 2.
         let scale = unit_scale(max(max(sides[0], sides[1]), sides[2]));
-        Self { low, scale, precision }
+        Self { low, scale, bits }
     }
 
     /// Code of the centre of a box.
@@ -62,11 +66,11 @@ impl Grid {
 
     #[inline(always)]
     const fn cell(&self, bounds: &Bounds, axis: usize) -> u32 {
-        let centre = add(mul(bounds.low[axis], HALF_SMALL), mul(bounds.high[axis], HALF_SMALL));
+        let centre = add(mul(flush(bounds.low[axis]), HALF_SMALL), mul(flush(bounds.high[axis]), HALF_SMALL));
         let place = mul(sub(centre, self.low[axis]), self.scale);
-        let cells = (1 << (self.precision.bits() - 1)) as f32;
+        let cells = (1_u32 << (self.bits - 1)) as f32;
         let cell = floor(mul(max(place, 0.0), cells)) as u32;
-        let last = (1 << self.precision.bits()) - 1;
+        let last = (1 << self.bits) - 1;
         if cell < last { cell } else { last }
     }
 }
@@ -80,4 +84,20 @@ const fn spread(x: u32) -> u64 {
     x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
     x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
     (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+impl SortKey {
+    /// Of a primitive with this code.
+    #[inline(always)]
+    #[must_use]
+    pub const fn new(code: u64, primitive: u32) -> Self {
+        Self { low: code as u32, high: (code >> 32) as u32, primitive }
+    }
+
+    /// Its code.
+    #[inline(always)]
+    #[must_use]
+    pub const fn code(&self) -> u64 {
+        (self.high as u64) << 32 | self.low as u64
+    }
 }

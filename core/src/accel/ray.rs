@@ -1,17 +1,21 @@
 //! What a ray hits first.
 //!
 //! Rounding keeps order, so a box inside another one is never entered before it; and a hit counts only where the ray is in
-//! the primitive's own box. So a tree finds the same as looking at every primitive.
+//! the primitive's own box. So a tree finds the same as looking at every primitive. What is nearer to 0 than 2⁻⁶³ is taken for
+//! 0, and what is farther away than 2⁴⁰ for as far: so no device has to compute with denormals or infinities.
 #![deny(clippy::float_arithmetic)]
 
 use super::bounds::Bounds;
-use super::tree::{DEEPEST, NOTHING, Node};
-use crate::num::{abs, add, cross3, dot3, flush, max, min, mul, neg, recip, sub};
+use super::walk::Search;
+use crate::abi::{Probe, Triangle};
+use crate::num::{abs, add, clamp, cross3, dot3, flush, flush3, max, min, mul, neg, recip, sub};
 
 /// Rounding errors of a place along the ray stay below this share of it.
 const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
 /// Directions whose components are smaller than this are taken for parallel to a side.
-const FLAT: f32 = 1.0e-30;
+const PARALLEL: f32 = 1.0 / FAR;
+/// Nothing is taken to be farther away along an axis.
+const FAR: f32 = (1_u64 << 40) as f32;
 
 /// Points `origin + t · direction`, for `t` from 0 to `far`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,21 +27,13 @@ pub struct Ray {
     far: f32,
 }
 
-/// What was hit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Which primitive; of several at the same place the lowest.
-    pub primitive: u32,
-    /// Where along the ray, in lengths of its direction.
-    pub t: f32,
-}
-
 impl Ray {
     /// From a point, in a direction about as long as 1, as far as `far` of it.
     #[must_use]
-    pub const fn new(origin: [f32; 3], direction: [f32; 3], far: f32) -> Self {
+    pub const fn new(probe: &Probe) -> Self {
+        let (origin, direction) = (flush3(probe.origin), flush3(probe.direction));
         let steps = [step(direction[0]), step(direction[1]), step(direction[2])];
-        Self { origin, direction, steps, far }
+        Self { origin, direction, steps, far: probe.far }
     }
 
     /// Between which places the ray may be in a box; the first is larger than the second if it is not.
@@ -56,8 +52,8 @@ impl Ray {
     /// What of a span is between two sides of a box.
     #[inline(always)]
     const fn cut(&self, span: [f32; 2], bounds: &Bounds, axis: usize) -> [f32; 2] {
-        let low = sub(bounds.low[axis], self.origin[axis]);
-        let high = sub(bounds.high[axis], self.origin[axis]);
+        let low = between(self.origin[axis], bounds.low[axis], FAR);
+        let high = between(self.origin[axis], bounds.high[axis], FAR);
         if self.steps[axis] == 0.0 {
             return if low <= 0.0 && high >= 0.0 { span } else { [1.0, 0.0] };
         }
@@ -72,24 +68,25 @@ impl Ray {
     #[inline(always)]
     #[must_use]
     pub fn hit(&self, [a, b, c]: [[f32; 3]; 3]) -> Option<f32> {
-        let (along, across, from) = (minus(b, a), minus(c, a), minus(self.origin, a));
-        let p = cross3(self.direction, across);
-        let size = dot3(along, p);
+        let (along, across) = (offset(a, b, FAR), offset(a, c, FAR));
+        let from = offset(a, self.origin, FAR);
+        let p = flush3(cross3(self.direction, across));
+        let size = flush(dot3(along, p));
         let sign = if size < 0.0 { neg(1.0) } else { 1.0 };
-        let size = flush(mul(size, sign));
-        let u = mul(dot3(from, p), sign);
-        let q = cross3(from, along);
-        let v = mul(dot3(self.direction, q), sign);
+        let size = mul(size, sign);
+        let u = mul(flush(dot3(from, p)), sign);
+        let q = flush3(cross3(from, along));
+        let v = mul(flush(dot3(self.direction, q)), sign);
         if size == 0.0 || u < 0.0 || v < 0.0 || add(u, v) > size {
             return None;
         }
-        Some(mul(mul(dot3(across, q), sign), recip(size)))
+        Some(mul(mul(flush(dot3(across, q)), sign), recip(size)))
     }
 }
 
 /// 1 / x, or 0 where that is out of range.
 const fn step(x: f32) -> f32 {
-    if abs(x) < FLAT {
+    if abs(x) < PARALLEL {
         0.0
     } else if x < 0.0 {
         neg(recip(neg(x)))
@@ -98,65 +95,48 @@ const fn step(x: f32) -> f32 {
     }
 }
 
+/// From one coordinate to another, `most` at most.
 #[inline(always)]
-const fn minus(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [sub(a[0], b[0]), sub(a[1], b[1]), sub(a[2], b[2])]
+pub(super) const fn between(from: f32, to: f32, most: f32) -> f32 {
+    clamp(flush(sub(flush(to), flush(from))), neg(most), most)
 }
 
-/// A hit, if it is in the primitive's own box.
+/// From one point to another.
 #[inline(always)]
-#[must_use]
-pub fn counted(ray: &Ray, bounds: &Bounds, primitive: u32, t: Option<f32>) -> Option<Hit> {
-    let [near, far] = ray.within(bounds);
-    let t = t.filter(|t| near <= *t && *t <= far)?;
-    Some(Hit { primitive, t })
+pub(super) const fn offset(from: [f32; 3], to: [f32; 3], most: f32) -> [f32; 3] {
+    [between(from[0], to[0], most), between(from[1], to[1], most), between(from[2], to[2], most)]
 }
 
-/// The nearer of two hits, the lower primitive if both are as near.
-#[inline(always)]
-#[must_use]
-pub fn nearer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
-    match (a, b) {
-        (Some(x), Some(y)) if y.t < x.t || (y.t == x.t && y.primitive < x.primitive) => b,
-        (None, _) => b,
-        _ => a,
+impl Triangle {
+    /// Its corners.
+    #[inline(always)]
+    #[must_use]
+    pub const fn points(&self) -> [[f32; 3]; 3] {
+        let [a, b, c, d, e, f, g, h, i] = self.corners;
+        [[a, b, c], [d, e, f], [g, h, i]]
     }
 }
 
-/// What a ray hits first; `test` says where it hits a primitive.
-pub fn first_hit(nodes: &[Node], ray: &Ray, mut test: impl FnMut(u32) -> Option<f32>) -> Option<Hit> {
-    let (mut stack, mut top) = ([(0, 0.0); DEEPEST + 2], 0);
-    let mut found: Option<Hit> = None;
-    if let Some(root) = nodes.first() {
-        top = push(&mut stack, top, ray, root, 0);
-    }
-    while top > 0 {
-        top -= 1;
-        let (index, near): (u32, f32) = stack[top];
-        if found.is_some_and(|hit| near > hit.t) {
-            continue;
-        }
-        let node = &nodes[index as usize];
-        if node.second == NOTHING {
-            found = nearer(found, counted(ray, &node.bounds, node.first, test(node.first)));
-            continue;
-        }
-        let [first, second] = [node.first, node.second].map(|child| (child, &nodes[child as usize]));
-        // The nearer child is looked at first: it comes on top.
-        let swapped = ray.within(&first.1.bounds)[0] > ray.within(&second.1.bounds)[0];
-        let (near, far) = if swapped { (second, first) } else { (first, second) };
-        top = push(&mut stack, top, ray, far.1, far.0);
-        top = push(&mut stack, top, ray, near.1, near.0);
-    }
-    found
+/// A ray among triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Shot<'a> {
+    /// The ray.
+    pub ray: Ray,
+    /// The primitives.
+    pub triangles: &'a [Triangle],
 }
 
-/// Puts a node on the stack, if the ray may be in it.
-fn push(stack: &mut [(u32, f32)], top: usize, ray: &Ray, node: &Node, index: u32) -> usize {
-    let [near, far] = ray.within(&node.bounds);
-    if near > far {
-        return top;
+impl Search for Shot<'_> {
+    #[inline(always)]
+    fn enter(&self, bounds: &Bounds) -> Option<f32> {
+        let [near, far] = self.ray.within(bounds);
+        (near <= far).then_some(near)
     }
-    stack[top] = (index, near);
-    top + 1
+
+    #[inline(always)]
+    fn test(&self, primitive: u32, bounds: &Bounds) -> Option<f32> {
+        let [near, far] = self.ray.within(bounds);
+        let t = self.ray.hit(self.triangles[primitive as usize].points())?;
+        (near <= t && t <= far).then_some(t)
+    }
 }

@@ -1,33 +1,29 @@
 //! The whole tree: boxes, children, parents; and whether they are right.
 
-use bytemuck::{Pod, Zeroable};
-
 use super::bounds::Bounds;
 use super::hierarchy::span;
-
-/// No node, no parent.
-pub const NOTHING: u32 = u32::MAX;
-/// Inner nodes on the way to a leaf, at most: bits of a code, and of a place among equal ones.
-pub const DEEPEST: usize = 64 + 32;
-
-/// A node: its box, and its children; or a leaf's primitive.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Node {
-    /// About all that is below.
-    pub bounds: Bounds,
-    /// First child; of a leaf the number of its primitive.
-    pub first: u32,
-    /// Second child; of a leaf [`NOTHING`].
-    pub second: u32,
-}
+pub use crate::abi::{DEEPEST, NOTHING, Node};
 
 impl Node {
+    /// With a box and children.
+    #[inline(always)]
+    #[must_use]
+    pub const fn new(bounds: Bounds, first: u32, second: u32) -> Self {
+        Self { low: bounds.low, high: bounds.high, first, second }
+    }
+
     /// A leaf.
     #[inline(always)]
     #[must_use]
     pub const fn leaf(primitive: u32, bounds: Bounds) -> Self {
-        Self { bounds, first: primitive, second: NOTHING }
+        Self::new(bounds, primitive, NOTHING)
+    }
+
+    /// About all that is below.
+    #[inline(always)]
+    #[must_use]
+    pub const fn bounds(&self) -> Bounds {
+        Bounds { low: self.low, high: self.high }
     }
 
     /// Is it a leaf?
@@ -76,30 +72,41 @@ pub enum Fault {
 #[must_use]
 pub fn inner(codes: &[u64], index: u32) -> Node {
     let [first, second] = span(codes, index).children(codes.len() as u32);
-    Node { bounds: Bounds::NONE, first, second }
+    Node::new(EMPTY, first, second)
 }
 
-/// Fills in boxes and parents from the leaves upwards, in one thread: `visits` is as long as there are inner nodes, all 0.
-pub fn fit(nodes: &mut [Node], parents: &mut [u32], visits: &mut [u32]) {
-    let inner = visits.len();
+/// The box of a node whose box is still to be found.
+pub const EMPTY: Bounds = Bounds { low: [0.0; 3], high: [0.0; 3] };
+
+/// Fills in the parents of all nodes, of which so many are inner ones.
+pub fn link(nodes: &[Node], parents: &mut [u32], inner: usize) {
     if let Some(root) = parents.first_mut() {
         *root = NOTHING;
     }
-    for node in 0..inner {
-        for child in [nodes[node].first, nodes[node].second] {
-            parents[child as usize] = node as u32;
+    for (index, node) in (0..).zip(&nodes[..inner]) {
+        for child in [node.first, node.second] {
+            parents[child as usize] = index;
         }
     }
+}
+
+/// Fills in boxes, from those of the primitives upwards, in one thread. `visits` is as long as there are inner nodes, all 0, and
+/// is so again afterwards. The same fits a tree to primitives that have moved.
+pub fn fit(nodes: &mut [Node], parents: &[u32], boxes: &[Bounds], visits: &mut [u32]) {
+    let inner = nodes.len() - boxes.len();
     for leaf in inner..nodes.len() {
+        let primitive = nodes[leaf].first;
+        nodes[leaf] = Node::leaf(primitive, boxes[primitive as usize]);
         let mut node = parents[leaf];
         while node != NOTHING {
-            visits[node as usize] += 1;
+            visits[node as usize] ^= 1;
             // Whoever comes second knows both children.
-            if visits[node as usize] < 2 {
+            if visits[node as usize] == 1 {
                 break;
             }
             let Node { first, second, .. } = nodes[node as usize];
-            nodes[node as usize].bounds = nodes[first as usize].bounds.union(nodes[second as usize].bounds);
+            let bounds = nodes[first as usize].bounds().union(nodes[second as usize].bounds());
+            nodes[node as usize] = Node::new(bounds, first, second);
             node = parents[node as usize];
         }
     }
@@ -134,7 +141,7 @@ pub fn validate(nodes: &[Node], parents: &[u32], boxes: &[Bounds], seen: &mut [b
 fn check_leaf(index: u32, node: &Node, boxes: &[Bounds], seen: &mut [bool]) -> Result<(), Fault> {
     let primitive = node.first;
     let bounds = boxes.get(primitive as usize).ok_or(Fault::Missing { node: index })?;
-    if *bounds != node.bounds {
+    if *bounds != node.bounds() {
         return Err(Fault::Box { node: index });
     }
     if core::mem::replace(&mut seen[primitive as usize], true) {
@@ -146,7 +153,7 @@ fn check_leaf(index: u32, node: &Node, boxes: &[Bounds], seen: &mut [bool]) -> R
 fn check_inner(index: u32, node: &Node, nodes: &[Node], parents: &[u32]) -> Result<(), Fault> {
     let child = |child: u32| nodes.get(child as usize).ok_or(Fault::Missing { node: index });
     let (first, second) = (child(node.first)?, child(node.second)?);
-    if node.bounds != first.bounds.union(second.bounds) {
+    if node.bounds() != first.bounds().union(second.bounds()) {
         return Err(Fault::Box { node: index });
     }
     for child in [node.first, node.second] {

@@ -1,6 +1,8 @@
 //! Trees over the triangles of a mesh, how good they are, and what they find: the linear hierarchy of
 //! [`micropoly_core::accel`], on the CPU.
 
+pub mod bench;
+
 use std::time::Instant;
 
 use glam::DVec3;
@@ -78,7 +80,7 @@ pub fn build(
     precision: Precision,
     repeat: u32,
 ) -> Result<(micropoly_backend_cpu::Lbvh, Built)> {
-    let device = micropoly_backend_cpu::CpuDevice::new(0).map_err(|error| Error::on_device(&error))?;
+    let device = cpu()?;
     let (mut tree, mut milliseconds) = (micropoly_backend_cpu::Lbvh::default(), f64::INFINITY);
     for _ in 0..repeat.max(1) {
         let start = Instant::now();
@@ -121,6 +123,11 @@ pub fn query(nodes: &[Node], boxes: &[Bounds], planes: &[Plane], repeat: u32) ->
     Ok(Seen { visible: found.len(), milliseconds, milliseconds_box_by_box: box_by_box })
 }
 
+/// All cores.
+fn cpu() -> Result<micropoly_backend_cpu::CpuDevice> {
+    micropoly_backend_cpu::CpuDevice::new(0).map_err(|error| Error::on_device(&error))
+}
+
 fn elapsed(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
@@ -128,9 +135,15 @@ fn elapsed(start: Instant) -> f64 {
 /// Areas of all boxes, in shares of the root's.
 #[must_use]
 pub fn sah(nodes: &[Node]) -> f64 {
-    let Some(root) = nodes.first() else { return 0.0 };
-    let all: f64 = nodes.iter().map(|node| f64::from(node.bounds.half_area())).sum();
-    all / f64::from(root.bounds.half_area()).max(f64::MIN_POSITIVE)
+    areas(nodes.iter().map(|node| node.bounds()))
+}
+
+/// Areas of all boxes, in shares of the first's.
+fn areas(mut boxes: impl Iterator<Item = Bounds>) -> f64 {
+    let Some(root) = boxes.next() else { return 0.0 };
+    let below: f64 = boxes.map(|bounds| f64::from(bounds.half_area())).sum();
+    let root = f64::from(root.half_area());
+    if root > 0.0 { 1.0 + below / root } else { 0.0 }
 }
 
 fn depth(nodes: &[Node]) -> usize {
