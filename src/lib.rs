@@ -24,6 +24,7 @@ pub mod cage;
 pub mod cage_bench;
 mod canvas;
 pub mod curve;
+pub mod cull;
 pub mod devices;
 pub mod dicing;
 pub mod diff;

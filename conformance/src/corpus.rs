@@ -118,6 +118,7 @@ fn control(random: &mut fastrand::Rng) -> Control {
         limited: any(),
         micropolygons: any(),
         overflow: 0,
+        listed: u32::from(random.bool()),
     }
 }
 

@@ -46,7 +46,7 @@ impl Case {
         let Frame { levels, width, height, .. } = frame;
         let area = Area::of(&frame);
         let sizes =
-            Sizes { patches, records, objects, batch, scheduler, capacity, levels, width, height, area };
+            Sizes { patches, records, objects, listed: 0, batch, scheduler, capacity, levels, width, height, area };
         FramePlan::with_sizes(frame, sizes)
     }
 
