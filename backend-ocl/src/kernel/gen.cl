@@ -283,6 +283,7 @@ typedef struct {
     uint limited;
     uint micropolygons;
     uint overflow;
+    uint listed;
 } Control;
 
 typedef struct {
