@@ -25,6 +25,7 @@ pub mod bsp;
 pub mod cage;
 pub mod cage_bench;
 mod canvas;
+pub mod cull;
 pub mod curve;
 pub mod devices;
 pub mod dicing;

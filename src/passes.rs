@@ -1,7 +1,7 @@
 //! An image in passes: parts of it, one after the other, so that all samples of a part fit the memory; for each of them
 //! layers, while something can be seen through; for each layer the moments of a blurred image.
 
-use micropoly_core::abi::{Colour, FLAG_LAYERS, Frame, Object, Sample, Tap};
+use micropoly_core::abi::{Colour, FLAG_LAYERS, Frame, Object, Patch, Sample, Tap};
 use micropoly_core::backend::Device;
 use micropoly_core::camera::Camera;
 use micropoly_core::error::PlanError;
@@ -12,6 +12,7 @@ use micropoly_core::render::{Buffers, Counts, FramePlan};
 use micropoly_core::stage::Extent;
 
 use crate::canvas::Canvas;
+use crate::cull::{Culling, View};
 use crate::error::{Error, Result};
 use crate::order::Ordered;
 use crate::render::{Progress, RenderOptions, Subject, Transparency, chosen_sizes, note_on, room_on};
@@ -28,6 +29,7 @@ const LEAST_PART: u64 = 1 << 10;
 pub(crate) struct Passes<'a> {
     scene: &'a Scene,
     options: &'a RenderOptions,
+    patches: &'a [Patch],
     /// The pixels that are wanted.
     pub(crate) window: Window,
     /// One view, or one a tuple.
@@ -40,7 +42,7 @@ pub(crate) struct Passes<'a> {
 
 impl<'a> Passes<'a> {
     pub(crate) fn new(subject: Subject<'a>, options: &'a RenderOptions) -> Result<Self> {
-        let Subject { scene, shot, .. } = subject;
+        let Subject { scene, shot, patches } = subject;
         let window = options.window()?;
         let samples = options.frame.samples;
         let blur = options.blur.unwrap_or(scene.blur);
@@ -64,7 +66,8 @@ impl<'a> Passes<'a> {
             }
             views.push((frame, objects));
         }
-        Ok(Self { scene, options, window, views, tuples, moments: ordered, taps: taps(options)? })
+        let taps = taps(options)?;
+        Ok(Self { scene, options, patches, window, views, tuples, moments: ordered, taps })
     }
 
     /// The scene's triangles at the first moment, if they are to be put into order.
@@ -75,6 +78,12 @@ impl<'a> Passes<'a> {
             return Ok(None);
         };
         Ordered::new(self.scene, *time, ordering, self.options.threads).map(Some)
+    }
+
+    /// What leaves patches out.
+    pub(crate) fn culling(&self) -> Culling<'a> {
+        let RenderOptions { cull, wave, .. } = *self.options;
+        Culling::new(cull, wave, self.patches, self.scene.patch_count() as u32)
     }
 
     fn samples(&self) -> Samples {
@@ -137,7 +146,7 @@ impl<'a> Passes<'a> {
         plan: &FramePlan,
         buffers: &mut Buffers<D::Buffer>,
         regions: &[Region],
-        canvas: &mut Canvas,
+        (canvas, culling): (&mut Canvas, &mut Culling<'_>),
         mut progress: impl FnMut(&Progress<'_>),
     ) -> Result<(Counts, Option<Ordered>)> {
         let failed = |error: D::Error| Error::on_device(&error);
@@ -155,7 +164,8 @@ impl<'a> Passes<'a> {
                 plan.take_layers(device, buffers, &front, &layers).map_err(failed)?;
                 inner(1.0, &counts);
             } else {
-                counts = counts.and(self.layers(device, plan, buffers, *region, &mut inner).map_err(failed)?);
+                counts = counts
+                    .and(self.layers(device, plan, buffers, (*region, culling), &mut inner).map_err(failed)?);
             }
             let whole = self.frame(*region);
             let aimed = plan.aimed(device, buffers, whole, &self.views[0].1).map_err(failed)?;
@@ -185,12 +195,12 @@ impl<'a> Passes<'a> {
         device: &mut D,
         plan: &FramePlan,
         buffers: &mut Buffers<D::Buffer>,
-        region: Region,
+        (region, culling): (Region, &mut Culling<'_>),
         progress: &mut impl FnMut(f64, &Counts),
     ) -> std::result::Result<Counts, D::Error> {
         let mut counts = Counts::default();
         loop {
-            counts = counts.and(self.layer(device, plan, buffers, region, progress)?);
+            counts = counts.and(self.layer(device, plan, buffers, (region, culling), progress)?);
             if !self.scene.is_transparent() || !plan.blend(device, buffers)? {
                 return Ok(counts);
             }
@@ -203,19 +213,18 @@ impl<'a> Passes<'a> {
         device: &mut D,
         plan: &FramePlan,
         buffers: &mut Buffers<D::Buffer>,
-        region: Region,
+        (region, culling): (Region, &mut Culling<'_>),
         progress: &mut impl FnMut(f64, &Counts),
     ) -> std::result::Result<Counts, D::Error> {
-        let patches = self.scene.patch_count() as f64;
         let mut counts = Counts::default();
         for (index, (view, objects)) in self.views.iter().enumerate() {
             let whole = self.frame_in(view, region);
             let tuple = self.tuples.get(index);
             let frame = tuple.map_or(whole, |tuple| whole.with_tuple(self.samples(), *tuple));
             let plan = plan.aimed(device, buffers, frame, objects)?;
-            let own = plan.run(device, buffers, |own| {
-                let share = (index as f64 + own.roots_taken as f64 / patches) / self.views.len() as f64;
-                progress(share, own);
+            let view = View { number: index, frame, objects };
+            let own = culling.run(device, &plan, buffers, &view, |share, own| {
+                progress((index as f64 + share) / self.views.len() as f64, own);
             })?;
             counts = counts.and(own);
         }

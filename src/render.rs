@@ -14,6 +14,7 @@ use micropoly_core::stage::Extent;
 
 use crate::backend::Backend;
 use crate::canvas::Canvas;
+use crate::cull::{Cull, Roots};
 use crate::error::{Error, Result};
 use crate::film::Film;
 use crate::image::Image;
@@ -92,6 +93,11 @@ pub struct RenderOptions {
     /// Entries of ADAPTIVE's stack; 0 = as many as it takes to be hardly ever slower than with more. The image
     /// does not depend on it.
     pub capacity: u32,
+    /// Which patches are left out before they are bounded. The image does not depend on it.
+    pub cull: Cull,
+    /// Patches that are drawn before depths are looked at again for [`Cull::Occlusion`]; 0 = as many as pay. The image does not
+    /// depend on it; what is culled does.
+    pub wave: u32,
     /// Threads of the CPU backend; 0 = one a core. The image does not depend on it.
     pub threads: usize,
     /// Keep linear values, too: [`Rendering::film`].
@@ -138,6 +144,8 @@ pub struct Rendering {
     pub film: Option<Film>,
     /// What was counted on the way, in all parts of the image and all passes together.
     pub counts: Counts,
+    /// What became of patches.
+    pub roots: Roots,
     /// Parts that the image was rendered in, so that it fits the memory; a surface on the border of two is counted in both.
     pub parts: usize,
     /// Buffer sizes, and so the proven bounds.
@@ -199,18 +207,21 @@ pub(crate) fn render_from<D: Device>(
     let mut buffers = plan.prepare(&mut device, &job.views[0].1, subject.patches).map_err(failed)?;
     let setup = start.elapsed().as_secs_f64();
     let mut canvas = Canvas::new(job.window, scene.background, options.film);
-    let (counts, order) = job.run(&mut device, &plan, &mut buffers, &regions, &mut canvas, progress)?;
+    let mut culling = job.culling();
+    let on = (&mut canvas, &mut culling);
+    let (counts, order) = job.run(&mut device, &plan, &mut buffers, &regions, on, progress)?;
     notes.extend(order.as_ref().map(Ordered::note));
     let resolving = Instant::now();
     let bytes_allocated = device.bytes_allocated();
     let film = options.film.then(|| canvas.film(subject, &options.frame)).transpose()?;
     let resolve = device.seconds.resolve + canvas.seconds + resolving.elapsed().as_secs_f64();
     let draw = device.seconds.draw + order.as_ref().map_or(0.0, Ordered::seconds);
-    let seconds = Seconds { setup, draw, resolve, ..device.seconds };
+    let seconds = Seconds { setup, draw, resolve, cull: culling.seconds, ..device.seconds };
     Ok(Rendering {
         image: canvas.image(),
         film,
         counts,
+        roots: culling.roots,
         parts: regions.len(),
         sizes: *plan.sizes(),
         bytes_allocated,
@@ -251,8 +262,10 @@ pub(crate) fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room, a
         let problem = format!("the size of the stack of the {} scheduler cannot be chosen", scheduler.name());
         return Err(Error::scene(problem, "leave out --stack, or use --scheduler adaptive or local"));
     }
-    let sizes = Sizes { patches, records, objects, batch, scheduler, capacity, levels, width, height, area }
-        .checked();
+    let listed = options.cull.listed(patches);
+    let sizes =
+        Sizes { patches, records, objects, listed, batch, scheduler, capacity, levels, width, height, area }
+            .checked();
     sizes.and_then(|sizes| sizes.fitted(Room { bytes: options.batch.budget(), ..room })).map_err(Error::Plan)
 }
 

@@ -8,6 +8,7 @@ use micropoly_core::pattern::Window;
 use micropoly_core::render::Load;
 use serde::Serialize;
 
+use crate::cull::Roots;
 use crate::render::{Batch, RenderOptions, Rendering};
 use crate::timed::Seconds;
 
@@ -35,6 +36,8 @@ pub struct Stats {
     pub options: Options,
     /// Patches of the scene.
     pub patches: u64,
+    /// Patches, by what became of them.
+    pub roots: RootStats,
     /// Surfaces, by what became of them.
     pub surfaces: Surfaces,
     /// Micropolygons of all drawn surfaces.
@@ -47,6 +50,25 @@ pub struct Stats {
     pub image_hash: String,
     /// Wall time by stage, in seconds.
     pub seconds: Seconds,
+}
+
+/// Counts of patches, in all parts of the image and all passes together.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RootStats {
+    /// Patches that were bounded.
+    pub taken: u64,
+    /// Patches left out because they can touch no sample.
+    pub outside: u64,
+    /// Patches left out because they are behind what was drawn before.
+    pub hidden: u64,
+    /// Waves in which patches were taken; 0 where all were taken at once.
+    pub waves: u64,
+}
+
+impl From<Roots> for RootStats {
+    fn from(Roots { taken, outside, hidden, waves }: Roots) -> Self {
+        Self { taken, outside, hidden, waves }
+    }
 }
 
 /// Counts of surfaces.
@@ -135,6 +157,8 @@ pub struct Options {
     pub rasteriser: &'static str,
     /// Pixels a side of a tile; 0 = as the device liked it.
     pub tile: u32,
+    /// Which patches were left out.
+    pub cull: &'static str,
     /// The pixels that were rendered: left, top, right, bottom, if not all.
     pub crop: Option<[u32; 4]>,
 }
@@ -153,6 +177,7 @@ impl Stats {
             device: device.clone(),
             options: effective(options, sizes),
             patches: u64::from(sizes.patches),
+            roots: rendering.roots.into(),
             surfaces: Surfaces {
                 processed: counts.processed,
                 drawn: counts.drawn,
@@ -199,6 +224,7 @@ fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
         shading: frame.shading.name(),
         rasteriser: frame.rasteriser.name(),
         tile: frame.tile,
+        cull: options.cull.name(),
         crop: options.crop.map(|Window { left, right, top, bottom }| [left, top, right, bottom]),
     }
 }

@@ -14,6 +14,8 @@ pub struct Seconds {
     pub load: f64,
     /// Opening the device, buffers and uploads.
     pub setup: f64,
+    /// Finding out which patches are outside or hidden, and reading depths for it.
+    pub cull: f64,
     /// Bounding surfaces.
     pub bound: f64,
     /// Taking batches, prefix sums, and moving surfaces to the stack and the draw buffer.

@@ -62,9 +62,9 @@ pub(crate) fn balance(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
 
 pub(crate) fn deal(buffers: Buffers<'_, '_>, count: u32) -> Result<(), CpuError> {
     let control = buffers[0].view::<Control>()?[0];
-    let groups = buffers[1].view::<Group>()?;
-    let (stack, fresh) = (buffers[2].view::<Surface>()?, buffers[3].view::<Draw>()?);
-    let (mut dealt, mut draws) = (buffers[4].view_mut::<Surface>()?, buffers[5].view_mut::<Draw>()?);
+    let (roots, groups) = (buffers[1].view::<u32>()?, buffers[2].view::<Group>()?);
+    let (stack, fresh) = (buffers[3].view::<Surface>()?, buffers[4].view::<Draw>()?);
+    let (mut dealt, mut draws) = (buffers[5].view_mut::<Surface>()?, buffers[6].view_mut::<Draw>()?);
     if control.overflow > 0 {
         return Ok(()); // the plan reports it when it next asks
     }
@@ -81,7 +81,7 @@ pub(crate) fn deal(buffers: Buffers<'_, '_>, count: u32) -> Result<(), CpuError>
     }
     for (index, group) in groups.iter().enumerate() {
         for entry in 0..group.roots {
-            dealt[at(group, index, entry)] = root(group, entry);
+            dealt[at(group, index, entry)] = root(&control, &roots, group, entry);
         }
         let own = &fresh[index * LOCAL_DRAWS as usize..][..group.draws as usize];
         draws[(control.waiting + group.first_draw) as usize..][..own.len()].copy_from_slice(own);

@@ -12,7 +12,7 @@ use micropoly_core::kernel::known_answers::answer as known_answer;
 use micropoly_core::kernel::mesh::{self, QUAD_INDICES};
 use micropoly_core::kernel::scan::scan as scan_batch;
 use micropoly_core::kernel::split::{Outcome, split as split_one};
-use micropoly_core::kernel::take::{self as taking, member};
+use micropoly_core::kernel::take::{self as taking, member, put_listed};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
@@ -26,9 +26,11 @@ pub(crate) type Buffers<'a, 'b> = &'a [&'b CpuBuffer];
 
 pub(crate) fn take(buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
     let limits = buffers[0].view::<Limits>()?[0];
-    let stack = buffers[1].view::<Surface>()?;
-    let control = &mut buffers[2].view_mut::<Control>()?[0];
+    let (roots, stack) = (buffers[1].view::<u32>()?, buffers[2].view::<Surface>()?);
+    let mut batch = buffers[3].view_mut::<Surface>()?;
+    let control = &mut buffers[4].view_mut::<Control>()?[0];
     *control = taking::take(*control, &limits, &stack);
+    put_listed(control, &roots, &mut batch);
     Ok(())
 }
 
@@ -48,7 +50,7 @@ pub(crate) fn bound(pool: &rayon::ThreadPool, buffers: Buffers<'_, '_>) -> Resul
     let (objects, patches) = (&*objects, &*patches);
     let batch = &mut batch[..control.taken as usize];
     for (item, surface) in (0..).zip(&mut *batch) {
-        *surface = member(&control, &stack, item);
+        *surface = member(&control, &stack, *surface, item);
     }
     let taken = &*batch;
     let verdicts = &mut verdicts[..taken.len()];

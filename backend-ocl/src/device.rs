@@ -320,7 +320,7 @@ impl Grid {
             (Stage::Bound, Items::Taken) => Some(Self::of_items(buffers[5].entries())),
             (Stage::Split, Items::Taken) => Some(Self::of_items(buffers[1].entries())),
             (Stage::Local, Items::Groups(count)) => Self::a_column_each(count, 1, buffers[4]),
-            (Stage::Deal, Items::Groups(count)) => Self::a_column_each(count, DEAL_ROWS, buffers[1]),
+            (Stage::Deal, Items::Groups(count)) => Self::a_column_each(count, DEAL_ROWS, buffers[2]),
             (Stage::Mesh, Items::Count(count)) => Self::a_column_each(count, 1, buffers[4]),
             (Stage::TessControl, Items::Count(count)) => {
                 (u64::from(count) <= buffers[3].entries()).then(|| Self::of_items(count.into()))

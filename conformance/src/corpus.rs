@@ -140,6 +140,7 @@ fn control(random: &mut fastrand::Rng) -> Control {
         limited: any(),
         micropolygons: any(),
         overflow: 0,
+        listed: u32::from(random.bool()),
     }
 }
 
@@ -172,7 +173,9 @@ fn take(random: &mut fastrand::Rng) -> Parts {
         limits.stack_room = (2 * count + levels).saturating_sub(2) + random.u32(0..2 * wanted);
     }
     let room = if stack.is_empty() { vec![Surface::default()] } else { stack };
-    (Items::Count(1), vec![words(&[limits]), words(&room), words(&[control])])
+    let roots: Vec<u32> = (0..limits.patches.max(1)).map(|_| random.u32(..)).collect();
+    let put = empty::<Surface>(limits.batch.min(limits.patches).max(1) as usize);
+    (Items::Count(1), vec![words(&[limits]), roots, words(&room), put, words(&[control])])
 }
 
 /// A range anywhere, at a corner or about the middle; now and then one parameter is split to the end. Its sides have
@@ -250,8 +253,10 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
     let deepest = [4, 12, 40][random.usize(0..3)];
     let stack: Vec<Surface> =
         (0..base + held).map(|_| surface(random, PATCHES, 0..=deepest, MAX_RATE)).collect();
-    let control = Control { base, taken, roots, next_root, stack: base + held, ..Control::default() };
+    let listed = u32::from(random.bool());
+    let control = Control { base, taken, roots, next_root, stack: base + held, listed, ..Control::default() };
     let room = (taken + random.u32(1..100)) as usize;
+    let put: Vec<Surface> = (0..room).map(|_| Surface::root(random.u32(0..PATCHES))).collect();
     let stack = if stack.is_empty() { vec![Surface::default()] } else { stack };
     let buffers = vec![
         words(&[frame]),
@@ -259,7 +264,7 @@ fn bounds(random: &mut fastrand::Rng) -> Parts {
         words(&patches),
         words(&[control]),
         words(&stack),
-        empty::<Surface>(room),
+        words(&put),
         empty::<Verdict>(room),
     ];
     (Items::Taken, buffers)

@@ -815,7 +815,7 @@ shared_structs! {
         roots: u32,
         /// Position on the stack of the batch's first surface that did lie there.
         base: u32,
-        /// Patch of the next root: roots are taken in the order of their patches.
+        /// Number of the next root: roots are taken in the order of their patches, or of the list.
         next_root: u32,
         /// Draws waiting in the draw buffer before the batch in flight.
         waiting: u32,
@@ -835,6 +835,8 @@ shared_structs! {
         micropolygons: u32,
         /// Entries that a buffer would have needed beyond its size; 0 = everything fitted.
         overflow: u32,
+        /// Which patches are roots: 0 = all of them, else those of a list.
+        listed: u32,
     }
 
     /// A group of LOCAL, which works on a stack of its own.
@@ -843,7 +845,7 @@ shared_structs! {
         stack: u32,
         /// So many of them, the lowest, are roots.
         roots: u32,
-        /// Patch after that of its lowest root; the others follow downwards.
+        /// Number after that of its lowest root; the others follow downwards.
         next_root: u32,
         /// Batches that it may take in the round.
         batches: u32,
@@ -883,7 +885,7 @@ shared_structs! {
 
     /// Sizes that the scheduler must know on the device.
     struct Limits {
-        /// Patches of the scene.
+        /// Number of roots: patches of the scene, or of the list.
         patches: u32,
         /// Surfaces a batch.
         batch: u32,

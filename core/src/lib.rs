@@ -34,6 +34,7 @@ pub mod adjacency;
 pub mod backend;
 pub mod border;
 pub mod camera;
+pub mod cull;
 pub mod displacement;
 pub mod error;
 pub mod kernel;

@@ -20,6 +20,8 @@ const ADAPTIVE_BATCHES: u64 = 4;
 pub const MAX_BATCH: u32 = 1 << 24;
 /// Batch where neither batch nor memory is asked for: the buffers of a batch fit a second-level cache.
 pub const DEFAULT_BATCH: u32 = 4096;
+/// Most roots that can be listed at once.
+pub const MOST_LISTED: u32 = 1 << 20;
 /// The draw buffer holds several small batches, so that there is enough to rasterise at once …
 const DRAW_BATCHES: u32 = 8;
 /// … but no more than this many surfaces, unless a single batch is larger.
@@ -83,6 +85,8 @@ pub struct Sizes {
     pub records: u32,
     /// Objects of the scene.
     pub objects: u32,
+    /// Roots that can be listed at once, up to [`MOST_LISTED`]; 0 = always all patches are roots.
+    pub listed: u32,
     /// Surfaces a batch.
     pub batch: u32,
     /// How the stack is worked off.
@@ -167,6 +171,7 @@ impl Sizes {
             ("number of patches", self.patches, 1, u32::MAX / 2),
             ("number of records of patches", self.records, 1, u32::MAX / 2),
             ("number of objects", self.objects, 1, u32::MAX / 2),
+            ("number of roots in a list", self.listed, 0, MOST_LISTED),
             ("batch", self.batch, 1, MAX_BATCH),
             ("number of levels (max-depth)", self.levels, 1, MAX_LEVELS),
             ("image width", self.width, 1, MAX_RESOLUTION),
@@ -292,6 +297,7 @@ impl Sizes {
     pub const fn fixed_bytes(&self) -> u64 {
         self.patch_bytes()
             + self.objects as u64 * size_of::<Object>() as u64
+            + self.root_entries() * size_of::<u32>() as u64
             + self.area.bytes()
             + (size_of::<Frame>() + size_of::<Control>() + size_of::<Limits>()) as u64
     }
@@ -321,6 +327,12 @@ impl Sizes {
         self.records as u64
     }
 
+    /// Entries of the list of roots; one if there is none.
+    #[must_use]
+    pub const fn root_entries(&self) -> u64 {
+        if self.listed > 1 { self.listed as u64 } else { 1 }
+    }
+
     const fn patch_bytes(&self) -> u64 {
         self.patch_entries() * size_of::<Patch>() as u64
     }
@@ -336,6 +348,7 @@ impl Sizes {
             ("draws", self.draw_entries() * size_of::<Draw>() as u64),
             ("batch", self.batch_entries() * size_of::<Surface>() as u64),
             ("fresh", self.fresh_entries() * size_of::<Draw>() as u64),
+            ("roots", self.root_entries() * size_of::<u32>() as u64),
         ];
         let (mut largest, mut index) = (all[0], 1);
         while index < all.len() {

@@ -90,6 +90,7 @@ pub struct Buffers<B> {
     pub(crate) frame: B,
     pub(crate) objects: B,
     pub(crate) patches: B,
+    roots: B,
     limits: B,
     pub(crate) control: B,
     stack: B,
@@ -104,7 +105,8 @@ pub struct Buffers<B> {
     pub samples: B,
     /// Its colour.
     pub colours: B,
-    behind: B,
+    /// What was found there at the last layer, if anything can be seen through.
+    pub behind: B,
     front: B,
     layers: B,
     more: B,
@@ -135,7 +137,19 @@ impl FramePlan {
         let (records, area) = (patches, Area::of(&frame));
         Self::with_sizes(
             frame,
-            Sizes { patches, records, objects, batch, scheduler, capacity, levels, width, height, area },
+            Sizes {
+                patches,
+                records,
+                objects,
+                listed: 0,
+                batch,
+                scheduler,
+                capacity,
+                levels,
+                width,
+                height,
+                area,
+            },
         )
     }
 
@@ -184,13 +198,13 @@ impl FramePlan {
         patches: &[Patch],
     ) -> Result<Buffers<D::Buffer>, D::Error> {
         let sizes = &self.sizes;
-        let limits = self.limits();
         let mut reserve = |name, layout: Layout, entries: u64| device.allocate(name, layout, entries);
         let batch = sizes.batch_entries();
         let buffers = Buffers {
             frame: reserve("frame", Frame::LAYOUT, 1)?,
             objects: reserve("objects", Object::LAYOUT, u64::from(sizes.objects))?,
             patches: reserve("patches", Patch::LAYOUT, sizes.patch_entries())?,
+            roots: reserve("roots", u32::LAYOUT, sizes.root_entries())?,
             limits: reserve("limits", Limits::LAYOUT, 1)?,
             control: reserve("control", Control::LAYOUT, 1)?,
             stack: reserve("stack", Surface::LAYOUT, sizes.stack_entries())?,
@@ -213,17 +227,16 @@ impl FramePlan {
         device.write(&buffers.frame, &[self.frame])?;
         device.write(&buffers.objects, objects)?;
         device.write(&buffers.patches, patches)?;
-        device.write(&buffers.limits, &[limits])?;
         Ok(buffers)
     }
 
-    const fn limits(&self) -> Limits {
+    const fn limits(&self, roots: u32) -> Limits {
         let stack = match self.sizes.scheduler {
             Scheduler::Local => self.sizes.group_stack(),
             _ => self.sizes.stack_entries(),
         };
         Limits {
-            patches: self.sizes.patches,
+            patches: roots,
             batch: self.sizes.batch,
             stack_room: stack as u32,
             draw_room: self.sizes.draw_entries() as u32,
@@ -322,6 +335,24 @@ impl FramePlan {
         self.run_into(device, buffers, progress, |device, b| self.draw(device, b))
     }
 
+    /// The same of these patches only, no more than [`Sizes::listed`]; samples of earlier runs stay where nothing is nearer.
+    ///
+    /// # Errors
+    /// As [`FramePlan::run`].
+    pub fn run_listed<D: Device>(
+        &self,
+        device: &mut D,
+        buffers: &mut Buffers<D::Buffer>,
+        roots: &[u32],
+        progress: impl FnMut(&Counts),
+    ) -> Result<Counts, D::Error> {
+        device.write(&buffers.roots, roots)?;
+        let control = Control { listed: 1, ..Control::default() };
+        self.run_roots(device, buffers, (control, roots.len() as u32), progress, |device, b| {
+            self.draw(device, b)
+        })
+    }
+
     /// As [`FramePlan::run`]; `draw` does something with all that lies in the draw buffer.
     pub(crate) fn run_into<D: Device>(
         &self,
@@ -330,10 +361,24 @@ impl FramePlan {
         progress: impl FnMut(&Counts),
         draw: impl FnMut(&mut D, &Buffers<D::Buffer>) -> Result<(), D::Error>,
     ) -> Result<Counts, D::Error> {
-        device.write(&buffers.control, &[Control::default()])?;
+        self.run_roots(device, buffers, (Control::default(), self.sizes.patches), progress, draw)
+    }
+
+    /// Works so many roots off, from these counts on.
+    fn run_roots<D: Device>(
+        &self,
+        device: &mut D,
+        buffers: &mut Buffers<D::Buffer>,
+        (control, roots): (Control, u32),
+        progress: impl FnMut(&Counts),
+        draw: impl FnMut(&mut D, &Buffers<D::Buffer>) -> Result<(), D::Error>,
+    ) -> Result<Counts, D::Error> {
+        let limits = self.limits(roots);
+        device.write(&buffers.control, &[control])?;
+        device.write(&buffers.limits, &[limits])?;
         match self.sizes.scheduler {
-            Scheduler::Breadth => self.run_by_level(device, buffers, progress, draw),
-            _ => self.run_by_batch(device, buffers, progress, draw),
+            Scheduler::Breadth => self.run_by_level(device, buffers, limits, progress, draw),
+            _ => self.run_by_batch(device, buffers, roots, progress, draw),
         }
     }
 
@@ -346,11 +391,12 @@ impl FramePlan {
         &self,
         device: &mut D,
         buffers: &Buffers<D::Buffer>,
+        roots: u32,
         mut progress: impl FnMut(&Counts),
         mut draw: impl FnMut(&mut D, &Buffers<D::Buffer>) -> Result<(), D::Error>,
     ) -> Result<Counts, D::Error> {
         let mut counts = Counts::default();
-        let mut schedule = Bounded::new(self.sizes.patches, self.sizes.batches_a_draw());
+        let mut schedule = Bounded::new(roots, self.sizes.batches_a_draw());
         loop {
             match schedule.step() {
                 Step::Batch => {
@@ -400,16 +446,16 @@ impl FramePlan {
         &self,
         device: &mut D,
         buffers: &mut Buffers<D::Buffer>,
+        mut limits: Limits,
         mut progress: impl FnMut(&Counts),
         mut draw: impl FnMut(&mut D, &Buffers<D::Buffer>) -> Result<(), D::Error>,
     ) -> Result<Counts, D::Error> {
         let mut counts = Counts::default();
-        let mut limits = self.limits();
         loop {
             let control = ask(device, buffers)?;
             counts.add(&control);
             progress(&counts);
-            let count = control.stack + self.sizes.patches - control.next_root;
+            let count = control.stack + limits.patches - control.next_root;
             if count == 0 {
                 return Ok(counts);
             }
@@ -519,7 +565,8 @@ fn bytes_while_growing(now: &Limits, batch: Option<u64>, stack: Option<u64>) -> 
 }
 
 fn run_batch<D: Device>(device: &mut D, b: &Buffers<D::Buffer>) -> Result<(), D::Error> {
-    device.dispatch(Stage::Take, Items::Count(1), &[&b.limits, &b.stack, &b.control])?;
+    let take = [&b.limits, &b.roots, &b.stack, &b.batch, &b.control];
+    device.dispatch(Stage::Take, Items::Count(1), &take)?;
     let bound = [&b.frame, &b.objects, &b.patches, &b.control, &b.stack, &b.batch, &b.verdicts];
     device.dispatch(Stage::Bound, Items::Taken, &bound)?;
     let scan = [&b.limits, &b.verdicts, &b.slots, &b.control];
@@ -533,7 +580,7 @@ fn run_round<D: Device>(device: &mut D, b: &Buffers<D::Buffer>, groups: u32) -> 
     let local = [&b.frame, &b.objects, &b.patches, &b.dealt, &b.groups, &b.stack, &b.fresh];
     device.dispatch(Stage::Local, Items::Groups(groups), &local)?;
     device.dispatch(Stage::Balance, Items::Count(1), &[&b.limits, &b.groups, &b.control])?;
-    let deal = [&b.control, &b.groups, &b.stack, &b.fresh, &b.dealt, &b.draws];
+    let deal = [&b.control, &b.roots, &b.groups, &b.stack, &b.fresh, &b.dealt, &b.draws];
     device.dispatch(Stage::Deal, Items::Groups(groups), &deal)
 }
 

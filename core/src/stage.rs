@@ -223,7 +223,15 @@ impl Stage {
     pub const fn bindings(self) -> &'static [Binding] {
         match self {
             Self::Take => {
-                const { &[read::<Limits>("limits"), read::<Surface>("stack"), write::<Control>("control")] }
+                const {
+                    &[
+                        read::<Limits>("limits"),
+                        read::<u32>("roots"),
+                        read::<Surface>("stack"),
+                        write::<Surface>("batch"),
+                        write::<Control>("control"),
+                    ]
+                }
             }
             Self::Bound => {
                 const {
@@ -280,6 +288,7 @@ impl Stage {
                 const {
                     &[
                         read::<Control>("control"),
+                        read::<u32>("roots"),
                         read::<Group>("groups"),
                         read::<Surface>("stack"),
                         read::<Draw>("fresh"),

@@ -78,7 +78,7 @@ impl Frame {
         }
         for (group, dealt) in self.groups.iter().zip(&mut dealt) {
             for entry in 0..group.roots {
-                let root = root(group, entry);
+                let root = root(&Control::default(), &[], group, entry);
                 self.roots[root.patch_id as usize] += 1;
                 dealt[entry as usize] = Some(root);
             }

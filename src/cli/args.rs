@@ -11,6 +11,7 @@ use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::accel::bsp::polygon::MOST_SLABS;
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
 use micropoly::core::reconstruction::{MAX_RADIUS, MIN_RADIUS};
+use micropoly::cull::Cull;
 use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
 use micropoly::{
@@ -134,6 +135,13 @@ pub(crate) struct RenderArguments {
     /// Distance that is in focus, in scene units. [default: the scene's]
     #[arg(long, value_name = "DISTANCE", value_parser = above_zero)]
     focus: Option<f64>,
+    /// Which patches are left out before they are bounded. The image does not depend on it.
+    #[arg(long, value_enum, default_value_t = CullChoice::None)]
+    cull: CullChoice,
+    /// Patches that --cull occlusion draws before it looks again at what they hide. The image does not depend on it. [default:
+    /// as many as pay]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = value_parser!(u32).range(1..))]
+    wave: Option<u32>,
     #[command(flatten)]
     transparency: TransparencyArguments,
     #[command(flatten)]
@@ -158,12 +166,15 @@ impl RenderArguments {
         let filter = Filter::of(self.filter.into());
         let filter = Filter { radius: self.filter_radius.unwrap_or(filter.radius), ..filter };
         let transparency = self.transparency.chosen();
+        let (cull, wave) = (self.cull.into(), self.wave.unwrap_or(0));
         RenderOptions {
             backend: self.backend.into(),
             device,
             crop,
             filter,
             transparency,
+            cull,
+            wave,
             ..self.frame.options()
         }
     }
@@ -720,6 +731,26 @@ impl From<RasteriserChoice> for Rasteriser {
         match choice {
             RasteriserChoice::SortMiddle => Self::SortMiddle,
             RasteriserChoice::SortLast => Self::SortLast,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CullChoice {
+    /// None.
+    None,
+    /// Those that can touch no sample.
+    Frustum,
+    /// Those, too, that are behind what has been drawn before.
+    Occlusion,
+}
+
+impl From<CullChoice> for Cull {
+    fn from(choice: CullChoice) -> Self {
+        match choice {
+            CullChoice::None => Self::None,
+            CullChoice::Frustum => Self::Frustum,
+            CullChoice::Occlusion => Self::Occlusion,
         }
     }
 }

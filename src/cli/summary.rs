@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use bytesize::ByteSize;
-use micropoly::stats::{LoadStats, Stats, Surfaces};
+use micropoly::stats::{LoadStats, RootStats, Stats, Surfaces};
 
 fn stack(surfaces: &Surfaces) -> String {
     let most = match surfaces.stack_bound {
@@ -20,6 +20,14 @@ fn stack(surfaces: &Surfaces) -> String {
     }
 }
 
+fn patches(stats: &Stats) -> String {
+    let RootStats { taken, outside, hidden, waves } = stats.roots;
+    if waves == 0 {
+        return stats.patches.to_string();
+    }
+    format!("{}: {taken} taken in {waves} waves, {outside} outside, {hidden} hidden", stats.patches)
+}
+
 /// The summary as text.
 pub(crate) fn of(stats: &Stats, output: &Path) -> String {
     let surfaces = &stats.surfaces;
@@ -28,7 +36,7 @@ pub(crate) fn of(stats: &Stats, output: &Path) -> String {
     let rows = [
         ("image", format!("{} ({}x{})", output.display(), stats.options.width, stats.options.height)),
         ("device", stats.device.clone()),
-        ("patches", stats.patches.to_string()),
+        ("patches", patches(stats)),
         (
             "surfaces",
             format!(
@@ -42,9 +50,10 @@ pub(crate) fn of(stats: &Stats, output: &Path) -> String {
         (
             "milliseconds",
             format!(
-                "load {}, setup {}, bound {}, split {}, draw {}, resolve {}, encode {}, total {}",
+                "load {}, setup {}, cull {}, bound {}, split {}, draw {}, resolve {}, encode {}, total {}",
                 ms(seconds.load),
                 ms(seconds.setup),
+                ms(seconds.cull),
                 ms(seconds.bound),
                 ms(seconds.split),
                 ms(seconds.draw),

@@ -499,7 +499,7 @@ __kernel void stage_bound(__constant Frame *frame, __global const Object *object
                           __global Verdict *verdicts) {
     const uint index = get_global_id(0);
     if (index < control->taken) {
-        const Surface surface = member(control, stack, index);
+        const Surface surface = member(control, stack, batch, index);
         batch[index] = surface;
         verdicts[index] = bound_any(frame, objects, patches, surface);
     }

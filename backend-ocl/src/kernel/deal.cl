@@ -18,7 +18,7 @@ static uint dealt_to(__global const Group *groups, uint count, uint rank) {
     return group * groups[group].room + rank / count + groups[group].roots;
 }
 
-static void deal(__global const Control *control, __global const Group *groups, uint count,
+static void deal(__global const Control *control, __global const uint *roots, __global const Group *groups, uint count,
                  __global const Surface *stack, __global const Draw *fresh, __global Surface *dealt,
                  __global Draw *draws, uint index, uint entry) {
     __global const Group *group = groups + index;
@@ -27,18 +27,18 @@ static void deal(__global const Control *control, __global const Group *groups, 
         dealt[dealt_to(groups, count, rank(groups, count, index, entry))] = stack[place];
     }
     if (entry < group->roots) {
-        dealt[place] = root(group->next_root - 1u - entry);
+        dealt[place] = root(patch_of(control, roots, group->next_root - 1u - entry));
     }
     if (entry < group->draws) {
         draws[control->waiting + group->first_draw + entry] = fresh[index * LOCAL_DRAWS + entry];
     }
 }
 
-__kernel void stage_deal(__global const Control *control, __global const Group *groups,
+__kernel void stage_deal(__global const Control *control, __global const uint *roots, __global const Group *groups,
                          __global const Surface *stack, __global const Draw *fresh,
                          __global Surface *dealt, __global Draw *draws) {
     const uint index = get_group_id(0), entry = get_group_id(1) * GROUP + get_local_id(0);
     if (control->overflow == 0u) {
-        deal(control, groups, get_num_groups(0), stack, fresh, dealt, draws, index, entry);
+        deal(control, roots, groups, get_num_groups(0), stack, fresh, dealt, draws, index, entry);
     }
 }

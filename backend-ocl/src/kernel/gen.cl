@@ -337,6 +337,7 @@ typedef struct {
     uint limited;
     uint micropolygons;
     uint overflow;
+    uint listed;
 } Control;
 
 typedef struct {

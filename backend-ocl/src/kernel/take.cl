@@ -11,10 +11,17 @@ static Control take(Control control, uint base, uint roots) {
     return control;
 }
 
-// Surface number `item` of the batch: roots first, the first patch last, as if they had lain on the stack.
-static Surface member(__global const Control *control, __global const Surface *stack, uint item) {
+// The patch that is root number `number`.
+static uint patch_of(__global const Control *control, __global const uint *roots, uint number) {
+    return control->listed == 0u ? number : roots[number];
+}
+
+// Surface number `item` of the batch, where `put` may lie: roots first, the first one last, as if they had lain on the
+// stack.
+static Surface member(__global const Control *control, __global const Surface *stack, __global const Surface *put,
+                      uint item) {
     if (item < control->roots) {
-        return root(control->next_root - 1u - item);
+        return control->listed == 0u ? root(control->next_root - 1u - item) : put[item];
     }
     return stack[control->base + item - control->roots];
 }
@@ -48,8 +55,9 @@ static uint roots_above_none(uint levels, uint capacity) {
 }
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
-void stage_take(__global const Limits *limits, __global const Surface *stack, __global Control *control) {
-    __local uint base, roots;
+void stage_take(__global const Limits *limits, __global const uint *roots, __global const Surface *stack,
+                __global Surface *batch, __global Control *control) {
+    __local uint base, most;
     const uint lane = get_local_id(0), count = control->stack;
     const uint levels = limits->levels, capacity = limits->stack_room;
     const uint first = saturating_sub(count, limits->batch);
@@ -57,18 +65,25 @@ void stage_take(__global const Limits *limits, __global const Surface *stack, __
     const bool safe = is_safe(count + wanted, count - first + wanted, levels, capacity);
     if (lane == 0u) {
         base = first;
-        roots = safe ? wanted : lesser_of(wanted, roots_above_none(levels, capacity));
+        most = safe ? wanted : lesser_of(wanted, roots_above_none(levels, capacity));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (!safe) {
         for (uint entry = first + lane; entry < count; entry += GROUP) {
             const uint entry_level = level(stack[entry]);
             atomic_max(&base, lowest(entry, entry_level, levels, capacity));
-            atomic_min(&roots, roots_below(entry, entry_level, levels, capacity));
+            atomic_min(&most, roots_below(entry, entry_level, levels, capacity));
         }
     }
     barrier(CLK_LOCAL_MEM_FENCE);
+    const Control after = take(*control, base, base > 0u ? 0u : most);
+    // `bound` finds the batch's roots there.
+    for (uint item = lane; after.listed != 0u && item < after.roots; item += GROUP) {
+        batch[item] = root(patch_of(control, roots, after.next_root - 1u - item));
+    }
+    // Nobody writes the counts before all have read them.
+    barrier(CLK_GLOBAL_MEM_FENCE);
     if (lane == 0u) {
-        *control = take(*control, base, base > 0u ? 0u : roots);
+        *control = after;
     }
 }

@@ -24,6 +24,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
 // Mirrors core/src/kernel/take.rs (member): roots first, the first patch last, as if they had lain on the stack.
 fn member(item: u32) -> Surface {
     if item < control.roots {
+        if control.listed != 0u {
+            return batch[item]; // where take has put it
+        }
         return root(control.next_root - 1u - item);
     }
     return stack[control.base + item - control.roots];

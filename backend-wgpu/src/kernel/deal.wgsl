@@ -5,11 +5,12 @@
 // many surfaces are counted together, so that nobody goes through all groups for every entry.
 
 @group(0) @binding(0) var<storage, read> control: Control;
-@group(0) @binding(1) var<storage, read> groups: array<Group>;
-@group(0) @binding(2) var<storage, read> stack: array<Surface>;
-@group(0) @binding(3) var<storage, read> fresh: array<Draw>;
-@group(0) @binding(4) var<storage, read_write> dealt: array<Surface>;
-@group(0) @binding(5) var<storage, read_write> draws: array<Draw>;
+@group(0) @binding(1) var<storage, read> roots: array<u32>;
+@group(0) @binding(2) var<storage, read> groups: array<Group>;
+@group(0) @binding(3) var<storage, read> stack: array<Surface>;
+@group(0) @binding(4) var<storage, read> fresh: array<Draw>;
+@group(0) @binding(5) var<storage, read_write> dealt: array<Surface>;
+@group(0) @binding(6) var<storage, read_write> draws: array<Draw>;
 
 const GROUP: u32 = LOCAL_BATCH;
 const RUN: u32 = LOCAL_STACK / GROUP;
@@ -102,8 +103,16 @@ fn place_of(index: u32, entry: u32) -> u32 {
 // No group is given more roots than a batch.
 fn put_roots(index: u32, lane: u32) {
     if lane < groups[index].roots {
-        dealt[place_of(index, lane)] = root(groups[index].next_root - 1u - lane);
+        dealt[place_of(index, lane)] = root(patch_of(groups[index].next_root - 1u - lane));
     }
+}
+
+// Mirrors core/src/kernel/take.rs (patch_of).
+fn patch_of(number: u32) -> u32 {
+    if control.listed == 0u {
+        return number;
+    }
+    return roots[number];
 }
 
 fn put_draws(index: u32, lane: u32) {

@@ -337,6 +337,7 @@ struct Control {
     limited: u32,
     micropolygons: u32,
     overflow: u32,
+    listed: u32,
 }
 
 struct Group {

@@ -6,7 +6,7 @@ const GROUP: u32 = 64u;
 
 // Index of the first surface of the batch that lies on the stack; roots before it.
 var<workgroup> base: atomic<u32>;
-var<workgroup> roots: atomic<u32>;
+var<workgroup> root_count: atomic<u32>;
 
 fn take(before: Control, limits: Limits, lane: u32) -> Control {
     let count = before.stack;
@@ -15,17 +15,17 @@ fn take(before: Control, limits: Limits, lane: u32) -> Control {
     let safe = is_safe(count + wanted, count - first + wanted, limits);
     if lane == 0u {
         atomicStore(&base, first);
-        atomicStore(&roots, select(umin(wanted, roots_above_none(limits)), wanted, safe));
+        atomicStore(&root_count, select(umin(wanted, roots_above_none(limits)), wanted, safe));
     }
     workgroupBarrier();
     for (var entry = first + lane; entry < select(count, 0u, safe); entry += GROUP) {
         let entry_level = level_at(entry);
         atomicMax(&base, lowest(entry, entry_level, limits));
-        atomicMin(&roots, roots_below(entry, entry_level, limits));
+        atomicMin(&root_count, roots_below(entry, entry_level, limits));
     }
     workgroupBarrier();
     let lowest_base = atomicLoad(&base);
-    return with_batch(before, lowest_base, select(atomicLoad(&roots), 0u, lowest_base > 0u));
+    return with_batch(before, lowest_base, select(atomicLoad(&root_count), 0u, lowest_base > 0u));
 }
 
 fn with_batch(before: Control, first: u32, taken_roots: u32) -> Control {

@@ -128,12 +128,14 @@ pub(super) fn deal(random: &mut fastrand::Rng) -> Parts {
     let limits = Limits { groups: count as u32, draw_room, ..limits };
     let control = Control { waiting: random.u32(0..500), fresh: 0, ..control };
     let control = balance::balance(control, &limits, &mut groups);
+    let roots: Vec<u32> = (0..control.next_root.max(1)).map(|_| random.u32(..)).collect();
     let entries = count * limits.stack_room as usize;
     let stack = (0..entries).map(|_| surface_of_level(random, 9)).collect::<Vec<_>>();
     let draw = |patch_id| Draw { patch_id, u: 1, v: 2, shape: 3, borders: [6, 7, 8, 9], columns: 4, rows: 5 };
     let fresh: Vec<Draw> = (0..(count * LOCAL_DRAWS as usize) as u32).map(draw).collect();
     let buffers = vec![
         words(&[control]),
+        roots,
         words(&groups),
         words(&stack),
         words(&fresh),

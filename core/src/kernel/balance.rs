@@ -103,6 +103,7 @@ pub const fn counted(control: Control, limits: &Limits, all: Totals) -> Control 
         limited: control.limited + all.limited,
         micropolygons: control.micropolygons.wrapping_add(all.micropolygons),
         overflow: (waiting + all.draws).saturating_sub(limits.draw_room),
+        listed: control.listed,
     }
 }
 

@@ -1,7 +1,8 @@
 //! deal: all surfaces that LOCAL's groups have left are dealt out anew, around the table, the lowest of all stacks
 //! first. So no surface moves up, and every stack stays safe (`docs/proofs/stack.md`).
 
-use crate::abi::{Group, Surface};
+use crate::abi::{Control, Group, Surface};
+use crate::kernel::take::patch_of;
 
 /// Place of an entry of a group's stack in the order in which all are dealt.
 #[inline(always)]
@@ -27,6 +28,6 @@ pub fn dealt_to(groups: &[Group], rank: u32) -> (u32, u32) {
 /// Root number `entry` of a group.
 #[inline(always)]
 #[must_use]
-pub const fn root(group: &Group, entry: u32) -> Surface {
-    Surface::root(group.next_root - 1 - entry)
+pub fn root(control: &Control, roots: &[u32], group: &Group, entry: u32) -> Surface {
+    Surface::root(patch_of(control, roots, group.next_root - 1 - entry))
 }

@@ -23,12 +23,31 @@ pub fn take(control: Control, limits: &Limits, stack: &[Surface]) -> Control {
     }
 }
 
-/// Surface number `item` of the batch: roots first, the first patch last, as if they had lain on the stack.
+/// The patch that is root number `number`.
 #[inline(always)]
 #[must_use]
-pub fn member(control: &Control, stack: &[Surface], item: u32) -> Surface {
+pub fn patch_of(control: &Control, roots: &[u32], number: u32) -> u32 {
+    if control.listed == 0 { number } else { roots[number as usize] }
+}
+
+/// Puts the batch's roots into it if there is a list of them: `bound`, which has no room for the list, finds them there.
+#[inline(always)]
+pub fn put_listed(control: &Control, roots: &[u32], batch: &mut [Surface]) {
+    if control.listed == 0 {
+        return;
+    }
+    for (item, surface) in (0..control.roots).zip(batch) {
+        *surface = Surface::root(patch_of(control, roots, control.next_root - 1 - item));
+    }
+}
+
+/// Surface number `item` of the batch, where `put` may lie: roots first, the first one last, as if they had lain on the
+/// stack.
+#[inline(always)]
+#[must_use]
+pub fn member(control: &Control, stack: &[Surface], put: Surface, item: u32) -> Surface {
     if item < control.roots {
-        Surface::root(control.next_root - 1 - item)
+        if control.listed == 0 { Surface::root(control.next_root - 1 - item) } else { put }
     } else {
         stack[(control.base + item - control.roots) as usize]
     }

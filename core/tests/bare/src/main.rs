@@ -101,7 +101,7 @@ fn split_batch(scene: &Scene, queues: &mut Queues) {
     let (mut batch, mut verdicts) = ([Surface::default(); BATCH], [Verdict::default(); BATCH]);
     let mut slots = [Slot::default(); BATCH];
     for (item, surface) in (0..).zip(&mut batch[..taken]) {
-        *surface = take::member(control, stack, item);
+        *surface = take::member(control, stack, *surface, item);
     }
     for (surface, verdict) in batch[..taken].iter().zip(&mut verdicts) {
         *verdict = bound(frame, patch, object, *surface);
