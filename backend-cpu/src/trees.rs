@@ -1,6 +1,6 @@
 //! The stages of trees in a device's memory. [`crate::CpuDevice::build_lbvh`] builds the same tree, and is made for the CPU.
 
-use micropoly_core::abi::{AccelFrame, Bounds, Found, Frustum, Node, Probe, SortKey, Triangle};
+use micropoly_core::abi::{AccelFrame, Bounds, Finding, Frustum, Node, Probe, SortKey, Triangle};
 use micropoly_core::accel::extent::{Extent, bounds as box_of, with};
 use micropoly_core::accel::morton::Grid;
 use micropoly_core::accel::nearest::Around;
@@ -140,7 +140,7 @@ fn search_all<S: Search>(
     search: impl Fn(&Probe) -> S + Sync,
 ) -> Result<(), CpuError> {
     let (nodes, probes) = (buffers[1].view::<Node>()?, buffers[3].view::<Probe>()?);
-    let mut found = buffers[4].view_mut::<Found>()?;
+    let mut found = buffers[4].view_mut::<Finding>()?;
     let (nodes, count) = (&nodes[..node_count(frame.count) as usize], frame.questions as usize);
     let (probes, found) = (&probes[..count], &mut found[..count]);
     pool.install(|| {

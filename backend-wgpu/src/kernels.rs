@@ -447,10 +447,10 @@ impl Which {
             Self::Stage(Stage::AccelSee) => &[GEN, ITEMS, NUM, ACCEL_QUERY, ACCEL_SEE],
             Self::Stage(Stage::AccelFill) => &[GEN, ITEMS, NUM, ACCEL_QUERY, ACCEL_FILL],
             Self::Stage(Stage::AccelRays) => {
-                &[GEN, ITEMS, NUM, ACCEL_OFFSET, ACCEL_WALK, ACCEL_RAY, ACCEL_RAYS]
+                &[GEN, ITEMS, NUM, LOOPS, ACCEL_OFFSET, ACCEL_WALK, ACCEL_RAY, ACCEL_RAYS]
             }
             Self::Stage(Stage::AccelNearest) => {
-                &[GEN, ITEMS, NUM, ACCEL_OFFSET, ACCEL_WALK, ACCEL_POINT, ACCEL_NEAREST]
+                &[GEN, ITEMS, NUM, LOOPS, ACCEL_OFFSET, ACCEL_WALK, ACCEL_POINT, ACCEL_NEAREST]
             }
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],

@@ -196,7 +196,7 @@ shared_constants! {
     const SEE_BLOCK: u32 = 64;
     /// No node, no parent, no primitive.
     const NOTHING: u32 = u32::MAX;
-    /// [`Found::primitive`] where a device has given up before it had looked at everything.
+    /// [`Finding::primitive`] where a device has given up before it had looked at everything.
     const UNFINISHED: u32 = NOTHING - 1;
     /// Inner nodes on the way to a leaf, at most: bits of a code, and of a place among equal ones.
     const DEEPEST: u32 = 64 + 32;
@@ -717,7 +717,7 @@ shared_structs! {
     }
 
     /// What a ray hits first, or what is nearest to a point.
-    struct Found {
+    struct Finding {
         /// Which primitive, [`NOTHING`] or [`UNFINISHED`]; of several at the same distance the lowest.
         primitive: u32,
         /// Where along the ray; or the distance squared. 0 where nothing is found.

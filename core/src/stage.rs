@@ -2,10 +2,10 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    AccelFrame, Bounds, Colour, Control, Draw, FLAG_SORT_LAST, Found, Frame, Frustum, Group, Layout, Limits,
-    MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Shared, Slot,
-    SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex, Triangle,
-    Verdict,
+    AccelFrame, Bounds, Colour, Control, Draw, FLAG_SORT_LAST, Finding, Frame, Frustum, Group, Layout,
+    Limits, MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Shared,
+    Slot, SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex,
+    Triangle, Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -465,7 +465,7 @@ impl Stage {
                         read::<Node>("nodes"),
                         read::<Triangle>("triangles"),
                         read::<Probe>("probes"),
-                        write::<Found>("found"),
+                        write::<Finding>("found"),
                     ]
                 }
             }

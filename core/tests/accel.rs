@@ -1,6 +1,6 @@
 //! The linear bounding volume hierarchy: sound for every soup, and the same whoever builds it.
 
-use micropoly_core::abi::{AccelFrame, Found, Frustum, Probe, Triangle};
+use micropoly_core::abi::{AccelFrame, Finding, Frustum, Probe, Triangle};
 use micropoly_core::accel::bounds::Bounds;
 use micropoly_core::accel::hierarchy::span;
 use micropoly_core::accel::morton::{Grid, Precision};
@@ -171,11 +171,11 @@ fn doubled(random: &mut fastrand::Rng) -> (Vec<Triangle>, Tree) {
 }
 
 /// What a search finds, which is the same as by looking at every triangle.
-fn found(search: &impl Search, tree: &Tree) -> Found {
+fn found(search: &impl Search, tree: &Tree) -> Finding {
     let found = find(search, &tree.nodes);
     let all = (0..).zip(&tree.boxes);
     let wanted =
-        all.fold(Found::NONE, |wanted, (primitive, bounds)| wanted.or(find_one(search, primitive, bounds)));
+        all.fold(Finding::NONE, |wanted, (primitive, bounds)| wanted.or(find_one(search, primitive, bounds)));
     assert_eq!(found, wanted);
     found
 }
@@ -197,8 +197,8 @@ fn a_ray_hits_first_what_looking_at_every_triangle_says() {
             let origin = if k % 5 == 1 { [0.0; 3] } else { [any(), any(), any()] };
             let ray = Ray::new(&Probe { origin, direction, far: 5.0 });
             let found = found(&Shot { ray, triangles: &all }, &tree);
-            hits += usize::from(found != Found::NONE);
-            assert!(found == Found::NONE || found.primitive < all.len() as u32 / 2);
+            hits += usize::from(found != Finding::NONE);
+            assert!(found == Finding::NONE || found.primitive < all.len() as u32 / 2);
         }
     }
     assert!(hits > 200, "{hits}");
@@ -218,8 +218,8 @@ fn what_is_nearest_is_what_looking_at_every_triangle_says() {
             }
             let probe = Probe { origin, far: 1.0, ..Probe::default() };
             let found = found(&Around { probe, triangles: &all }, &tree);
-            none += usize::from(found == Found::NONE);
-            assert!(found == Found::NONE || found.primitive < all.len() as u32 / 2);
+            none += usize::from(found == Finding::NONE);
+            assert!(found == Finding::NONE || found.primitive < all.len() as u32 / 2);
             assert!(k % 5 > 0 || all.is_empty() || found.distance < 1.0e-10);
         }
     }

@@ -1,11 +1,13 @@
 //! Trees over the triangles of a mesh, how good they are, and what they find: the linear hierarchy of
-//! [`micropoly_core::accel`], on the CPU.
+//! [`micropoly_core::accel`], on the CPU and on any other device.
 
 pub mod bench;
+pub mod on_device;
 
 use std::time::Instant;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use micropoly_core::abi::{Probe, TessPatch, Triangle};
 use micropoly_core::accel::bounds::Bounds;
 use micropoly_core::accel::morton::Precision;
 use micropoly_core::accel::query::{Plane, in_frustum, is_visible};
@@ -44,11 +46,44 @@ pub struct Seen {
     pub milliseconds_box_by_box: f64,
 }
 
-/// Boxes of the triangles of a mesh.
+/// Triangles of a mesh.
+#[must_use]
+pub fn triangles(mesh: &TessSource) -> Vec<Triangle> {
+    let corners = |patch: &TessPatch| std::array::from_fn(|k| patch.points[k]);
+    mesh.patches.iter().map(|patch| Triangle { corners: corners(patch) }).collect()
+}
+
+/// Their boxes.
 #[must_use]
 pub fn boxes(mesh: &TessSource) -> Vec<Bounds> {
-    mesh.patches.iter().map(|patch| Bounds::of(patch.points[..9].as_chunks::<3>().0)).collect()
+    triangles(mesh).iter().map(|triangle| Bounds::of(&triangle.points())).collect()
 }
+
+/// Rays from a camera's eye through an image of so many columns and rows; and a point on each, half as far away as the origin.
+#[must_use]
+pub fn rays(camera: &Camera, [columns, rows]: [u32; 2]) -> [Vec<Probe>; 2] {
+    let eye = camera.view.inverse().transform_point3(DVec3::ZERO);
+    let high = 1.0 / camera.focal(1);
+    let ray = |place: u32| {
+        let [x, y] = [place % columns, place / columns].map(|k| f64::from(k) + 0.5);
+        let across = (x - 0.5 * f64::from(columns)) / f64::from(rows);
+        let up = 0.5 - y / f64::from(rows);
+        let to = DVec3::new(across * high, up * high, -1.0).normalize();
+        let direction = camera.view.matrix3.transpose() * to;
+        Probe { origin: eye.as_vec3().into(), direction: direction.as_vec3().into(), far: FAR }
+    };
+    let rays: Vec<Probe> = (0..columns * rows).map(ray).collect();
+    let distance = 0.5 * eye.length();
+    let points = rays.iter().map(|ray| {
+        let at = eye + distance * Vec3::from(ray.direction).as_dvec3();
+        Probe { origin: at.as_vec3().into(), ..*ray }
+    });
+    let points = points.collect();
+    [rays, points]
+}
+
+/// As far as anything is looked for.
+const FAR: f32 = 1.0e30;
 
 /// What a camera sees in an image of this width, in heights: left, right, bottom, top, and before the near plane.
 #[must_use]

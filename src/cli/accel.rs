@@ -1,16 +1,24 @@
-//! `micropoly accel`: trees over the triangles of a mesh, on the CPU.
+//! `micropoly accel`: trees over the triangles of a mesh, on the CPU and on any other device.
 
 use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::{Args, Subcommand, value_parser};
-use micropoly::accel::{boxes, build, frustum, query};
+use micropoly::accel::on_device::{Questions, Times, on_device};
+use micropoly::accel::{boxes, build, frustum, query, rays, triangles};
+use micropoly::bench::devices;
 use micropoly::core::accel::morton::Precision;
+use micropoly::devices::DeviceEntry;
 use micropoly::tess::TessSource;
 use micropoly::{Error, Result};
 
-use super::args::resolution;
+use super::args::{Compared, resolution};
 use super::bsp::{self, SortArguments};
+
+/// Frusta that devices are asked about at once: what the camera sees, narrower and narrower.
+const FRUSTA: u32 = 4;
+/// Pixels of the image along each of its sides that share a ray.
+const COARSE: u32 = 8;
 
 #[derive(Debug, Args)]
 pub(crate) struct AccelArguments {
@@ -42,6 +50,12 @@ struct TreeArguments {
     /// Bits of Morton codes.
     #[arg(long, value_name = "30|63", default_value = "30", value_parser = precision)]
     bits: Precision,
+    /// Build it on these devices, too, and compare: `all`, or those of one backend.
+    #[arg(long, value_enum)]
+    backend: Option<Compared>,
+    /// Number or part of the name of a device of the backend (see `micropoly devices`).
+    #[arg(long, value_name = "NUMBER|NAME", requires = "backend")]
+    device: Option<String>,
     /// Runs of each; the shortest counts.
     #[arg(long, value_name = "N", default_value = "10", value_parser = value_parser!(u32).range(1..=1000))]
     repeat: u32,
@@ -62,14 +76,52 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
     say!("depth         {}", built.depth);
     say!("SAH           {:.1}", built.sah);
     say!("build         {:.2} ms", built.milliseconds);
+    let mut questions = Questions::default();
     if let Some((width, height)) = res {
-        let planes = frustum(&mesh.camera()?, f64::from(width) / f64::from(height));
+        let camera = mesh.camera()?;
+        let shape = f64::from(width) / f64::from(height);
+        let planes = frustum(&camera, shape);
+        questions.frusta =
+            (1..=FRUSTA).map(|k| frustum(&camera, shape * f64::from(k) / f64::from(FRUSTA)).into()).collect();
+        [questions.rays, questions.points] = rays(&camera, [width, height].map(|size| size.div_ceil(COARSE)));
         let seen = query(&lbvh.nodes, &boxes, &planes, tree.repeat)?;
         say!("visible       {}", seen.visible);
         say!("query         {:.3} ms", seen.milliseconds);
         say!("box by box    {:.3} ms", seen.milliseconds_box_by_box);
     }
+    let Some(backend) = tree.backend else { return Ok(()) };
+    let triangles = triangles(&mesh);
+    say!("{}", head(&questions));
+    for entry in devices(backend.only())?.into_iter().filter(|entry| tree.means(entry)) {
+        say!("{}", line(&on_device(&entry, (&triangles, &lbvh), tree.bits, &questions, tree.repeat)?));
+    }
+    say!("trees and answers are the CPU's, bit by bit");
     Ok(())
+}
+
+impl TreeArguments {
+    /// Is the tree to be built on a device?
+    fn means(&self, entry: &DeviceEntry) -> bool {
+        let number = |text: &String| text.parse() == Ok(entry.index);
+        self.device.as_ref().is_none_or(|text| number(text) || entry.is_called(text))
+    }
+}
+
+fn head(Questions { frusta, rays, points }: &Questions) -> String {
+    let [frusta, rays, points] = [frusta.len(), rays.len(), points.len()];
+    format!(
+        "{:<40} {:>9} {:>9} {:>12} {:>12} {:>12}",
+        "ms on device",
+        "build",
+        "refit",
+        format!("{frusta} frusta"),
+        format!("{rays} rays"),
+        format!("{points} points")
+    )
+}
+
+fn line(Times { device, build, refit, frusta, rays, nearest }: &Times) -> String {
+    format!("{device:<40.40} {build:>9.2} {refit:>9.2} {frusta:>12.2} {rays:>12.2} {nearest:>12.2}")
 }
 
 /// Reads a mesh of triangles, and says what of it is left out.

@@ -20,16 +20,16 @@ static void push(Stack *stack, uint node, float2 span) {
 }
 
 // The nearer of two, the lower primitive if both are as near.
-static Found nearer(Found a, Found b) {
+static Finding nearer(Finding a, Finding b) {
     const bool is_nearer = b.distance < a.distance || (b.distance == a.distance && b.primitive < a.primitive);
     return a.primitive == NOTHING || is_nearer ? b : a;
 }
 
 // What is found of a leaf's primitive, beside what is found already.
-static Found find_one(uint zero, const Search *search, __global const Node *leaf, __global const Triangle *triangles,
-                      Found found) {
+static Finding find_one(uint zero, const Search *search, __global const Node *leaf, __global const Triangle *triangles,
+                      Finding found) {
     const float2 span = enter(zero, search, leaf);
-    Found own = {leaf->first, 0.0f};
+    Finding own = {leaf->first, 0.0f};
     if (search->is_ray) {
         const bool is_hit = hit(zero, search, triangles + leaf->first, &own.distance);
         return is_hit && span.x <= own.distance && own.distance <= span.y ? nearer(found, own) : found;
@@ -47,11 +47,11 @@ static void push_children(uint zero, const Search *search, __global const Node *
     push(stack, swapped ? b : a, swapped ? second : first);
 }
 
-static Found find(uint zero, const Search *search, __global const Node *nodes, __global const Triangle *triangles) {
+static Finding find(uint zero, const Search *search, __global const Node *nodes, __global const Triangle *triangles) {
     Stack stack;
     stack.height = 0u;
     push(&stack, 0u, enter(zero, search, nodes));
-    Found found = {NOTHING, 0.0f};
+    Finding found = {NOTHING, 0.0f};
     while (stack.height > 0u) {
         stack.height -= 1u;
         const uint index = stack.nodes[stack.height];

@@ -274,7 +274,7 @@ typedef struct {
 typedef struct {
     uint primitive;
     float distance;
-} Found;
+} Finding;
 
 typedef struct {
     float weight;

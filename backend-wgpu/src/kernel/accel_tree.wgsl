@@ -77,12 +77,12 @@ fn leaves_beside(index: u32, way: i32, outside: i32) -> i32 {
 
 // Last leaf of the first half of those from `first` to `last`.
 fn split_leaves(first: u32, last: u32) -> u32 {
-    let shared = shared_bits(first, i32(last));
+    let both = shared_bits(first, i32(last));
     var low = first;
     var high = last;
     while high - low > 1u {
         let middle = low + (high - low) / 2u;
-        if shared_bits(first, i32(middle)) > shared {
+        if shared_bits(first, i32(middle)) > both {
             low = middle;
         } else {
             high = middle;

@@ -1,6 +1,6 @@
 // Mirrors core/src/accel/walk.rs: from the root downwards, what is nearer first.
 //
-// Some drivers end loops before they are through: then there is something left on the stack.
+// Some drivers end loops before they are through: then nothing is found, and the plan says so.
 
 const STACK_ROOM: u32 = DEEPEST + 2u;
 
@@ -21,7 +21,7 @@ fn push(node: u32, span: vec2<f32>) {
 }
 
 // The nearer of two, the lower primitive if both are as near.
-fn nearer(a: Found, b: Found) -> Found {
+fn nearer(a: Finding, b: Finding) -> Finding {
     let is_nearer = b.distance < a.distance || (b.distance == a.distance && b.primitive < a.primitive);
     if a.primitive == NOTHING || is_nearer {
         return b;
@@ -30,13 +30,13 @@ fn nearer(a: Found, b: Found) -> Found {
 }
 
 // What is found of a leaf's primitive, beside what is found already.
-fn find_one(leaf: u32, found: Found) -> Found {
+fn find_one(leaf: u32, found: Finding) -> Finding {
     let primitive = nodes[leaf].first;
     let distance = distance_to(primitive, enter(leaf));
     if distance < 0.0 {
         return found;
     }
-    return nearer(found, Found(primitive, distance));
+    return nearer(found, Finding(primitive, distance));
 }
 
 // Puts the children of a node on the stack: what is on top is looked at first.
@@ -54,10 +54,10 @@ fn push_children(node: u32) {
     }
 }
 
-fn find() -> Found {
+fn find() -> Finding {
     height = 0u;
     push(0u, enter(0u));
-    var found = Found(NOTHING, 0.0);
+    var found = Finding(NOTHING, 0.0);
     while height > 0u {
         height -= 1u;
         let node = stack[height];
@@ -70,8 +70,8 @@ fn find() -> Found {
             push_children(node);
         }
     }
-    if height > 0u {
-        return Found(UNFINISHED, 0.0);
+    if loops_were_cut() {
+        return Finding(UNFINISHED, 0.0);
     }
     return found;
 }

@@ -271,7 +271,7 @@ struct Probe {
     far: f32,
 }
 
-struct Found {
+struct Finding {
     primitive: u32,
     distance: f32,
 }

@@ -1,7 +1,7 @@
 //! Inputs for the stages of trees: soups of all sizes, with equal codes and places, the smallest and the largest coordinates.
 
 use micropoly_core::abi::{
-    AccelFrame, Bounds, Found, Frustum, Node, Probe, SORT_BITS, SORT_DIGITS, SortKey, Triangle,
+    AccelFrame, Bounds, Finding, Frustum, Node, Probe, SORT_BITS, SORT_DIGITS, SortKey, Triangle,
 };
 use micropoly_core::accel::extent::{Extent, bounds as box_of, with};
 use micropoly_core::accel::morton::{Grid, Precision};
@@ -218,7 +218,7 @@ pub(super) fn probes(random: &mut fastrand::Rng) -> Parts {
     let probes: Vec<Probe> = (0..random.usize(1..200)).map(|_| probe(random)).collect();
     let questions = probes.len() as u32;
     let frame = AccelFrame { questions, ..frame(&boxes, Precision::Bits30) };
-    let found = empty::<Found>(probes.len());
+    let found = empty::<Finding>(probes.len());
     let buffers = vec![words(&[frame]), words(&built(&boxes)), words(&triangles), words(&probes), found];
     (Items::Count(questions), buffers)
 }

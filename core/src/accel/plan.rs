@@ -5,7 +5,7 @@ use super::query::blocks as leaf_blocks;
 use super::sort::{blocks, digits};
 use super::tree::node_count;
 use crate::abi::{
-    AccelFrame, Bounds, Found, Frustum, Node, Probe, SORT_BITS, SORT_DIGITS, Shared, SortKey, Triangle,
+    AccelFrame, Bounds, Finding, Frustum, Node, Probe, SORT_BITS, SORT_DIGITS, Shared, SortKey, Triangle,
     UNFINISHED,
 };
 use crate::backend::Device;
@@ -162,7 +162,7 @@ impl<B> DeviceTree<B> {
         device: &mut D,
         triangles: &B,
         rays: &[Probe],
-        found: &mut [Found],
+        found: &mut [Finding],
     ) -> Result<(), D::Error> {
         self.find(device, Stage::AccelRays, triangles, rays, found)
     }
@@ -176,7 +176,7 @@ impl<B> DeviceTree<B> {
         device: &mut D,
         triangles: &B,
         points: &[Probe],
-        found: &mut [Found],
+        found: &mut [Finding],
     ) -> Result<(), D::Error> {
         self.find(device, Stage::AccelNearest, triangles, points, found)
     }
@@ -187,15 +187,15 @@ impl<B> DeviceTree<B> {
         stage: Stage,
         triangles: &B,
         probes: &[Probe],
-        found: &mut [Found],
+        found: &mut [Finding],
     ) -> Result<(), D::Error> {
-        found.fill(Found::NONE);
+        found.fill(Finding::NONE);
         let about = AccelFrame { questions: probes.len() as u32, ..self.about };
         if about.count == 0 || probes.is_empty() {
             return Ok(());
         }
         let asked = filled(device, "probes", probes)?;
-        let answers = device.allocate("found", Found::LAYOUT, probes.len() as u64)?;
+        let answers = device.allocate("found", Finding::LAYOUT, probes.len() as u64)?;
         device.write(&self.frame, &[about])?;
         let buffers = [&self.frame, &self.nodes, triangles, &asked, &answers];
         device.dispatch(stage, Items::Count(about.questions), &buffers)?;

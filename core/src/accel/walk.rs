@@ -3,7 +3,7 @@
 
 use super::bounds::Bounds;
 use super::tree::{DEEPEST, NOTHING, Node};
-use crate::abi::Found;
+use crate::abi::Finding;
 
 /// Something is looked for along a ray, or around a point.
 pub trait Search {
@@ -14,7 +14,7 @@ pub trait Search {
     fn test(&self, primitive: u32, bounds: &Bounds) -> Option<f32>;
 }
 
-impl Found {
+impl Finding {
     /// Nothing.
     pub const NONE: Self = Self { primitive: NOTHING, distance: 0.0 };
 
@@ -31,18 +31,18 @@ impl Found {
 /// What a search finds of one primitive.
 #[inline(always)]
 #[must_use]
-pub fn find_one(search: &impl Search, primitive: u32, bounds: &Bounds) -> Found {
+pub fn find_one(search: &impl Search, primitive: u32, bounds: &Bounds) -> Finding {
     match (search.enter(bounds), search.test(primitive, bounds)) {
-        (Some(_), Some(distance)) => Found { primitive, distance },
-        _ => Found::NONE,
+        (Some(_), Some(distance)) => Finding { primitive, distance },
+        _ => Finding::NONE,
     }
 }
 
 /// What a search finds in a tree: the same as by looking at every primitive.
 #[must_use]
-pub fn find(search: &impl Search, nodes: &[Node]) -> Found {
+pub fn find(search: &impl Search, nodes: &[Node]) -> Finding {
     let mut stack = Stack { entries: [(0, 0.0); DEEPEST as usize + 2], height: 0 };
-    let mut found = Found::NONE;
+    let mut found = Finding::NONE;
     if let Some(root) = nodes.first() {
         stack.push(0, search.enter(&root.bounds()));
     }
