@@ -137,7 +137,8 @@ impl<'a> Passes<'a> {
                 plan.clear(device, buffers).map_err(failed)?; // new buffers are clear
             }
             loop {
-                counts = counts.and(self.layer(device, plan, buffers, (*region, culling), &mut inner).map_err(failed)?);
+                counts = counts
+                    .and(self.layer(device, plan, buffers, (*region, culling), &mut inner).map_err(failed)?);
                 if !self.scene.is_transparent() || !plan.blend(device, buffers).map_err(failed)? {
                     break;
                 }

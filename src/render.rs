@@ -186,7 +186,8 @@ pub(crate) fn render_from<D: Device>(
     let setup = start.elapsed().as_secs_f64();
     let mut canvas = Canvas::new(job.window, scene.background, options.film);
     let mut culling = job.culling();
-    let counts = job.run(&mut device, &plan, &mut buffers, &regions, (&mut canvas, &mut culling), progress)?;
+    let counts =
+        job.run(&mut device, &plan, &mut buffers, &regions, (&mut canvas, &mut culling), progress)?;
     let resolving = Instant::now();
     let bytes_allocated = device.bytes_allocated();
     let film = options.film.then(|| canvas.film(subject, &options.frame)).transpose()?;
@@ -238,8 +239,9 @@ pub(crate) fn chosen_sizes(scene: &Scene, options: &RenderOptions, room: Room, a
         return Err(Error::scene(problem, "leave out --stack, or use --scheduler adaptive or local"));
     }
     let listed = options.cull.listed(patches);
-    let sizes = Sizes { patches, records, objects, listed, batch, scheduler, capacity, levels, width, height, area }
-        .checked();
+    let sizes =
+        Sizes { patches, records, objects, listed, batch, scheduler, capacity, levels, width, height, area }
+            .checked();
     sizes.and_then(|sizes| sizes.fitted(Room { bytes: options.batch.budget(), ..room })).map_err(Error::Plan)
 }
 

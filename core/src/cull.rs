@@ -76,8 +76,7 @@ struct Hull {
 }
 
 impl Hull {
-    const NONE: Self =
-        Self { low: [f32::MAX; 3], high: [-f32::MAX; 3], x: Sight::NONE.x, y: Sight::NONE.y };
+    const NONE: Self = Self { low: [f32::MAX; 3], high: [-f32::MAX; 3], x: Sight::NONE.x, y: Sight::NONE.y };
 
     #[inline(always)]
     fn with<const N: usize>(self, frame: &Frame, x: &[f32; N], y: &[f32; N], z: &[f32; N]) -> Self {
@@ -112,7 +111,8 @@ impl Hull {
             let along = |low, high| cut(frame, sub(low, spread), add(high, spread), farthest);
             (along(self.low[0], self.high[0]), along(neg(self.high[1]), neg(self.low[1])))
         } else {
-            let off_axis = [self.x[0], self.x[1], self.y[0], self.y[1]].into_iter().fold(0.0, |a, b| max(a, abs(b)));
+            let off_axis =
+                [self.x[0], self.x[1], self.y[0], self.y[1]].into_iter().fold(0.0, |a, b| max(a, abs(b)));
             let by = mul(mul(add(frame.focal, off_axis), spread), recip(nearest));
             (widened(self.x, by), widened(self.y, by))
         };
