@@ -25,6 +25,7 @@ pub mod cage_bench;
 mod canvas;
 pub mod curve;
 pub mod cull;
+pub mod culling;
 pub mod devices;
 pub mod dicing;
 pub mod diff;

@@ -10,9 +10,9 @@ use micropoly::cage::{MOST_LEVELS, Options};
 use micropoly::core::abi::{MAX_LEVELS, MAX_RATE, MAX_RESOLUTION};
 use micropoly::core::memory::{DEFAULT_BATCH, MAX_BATCH};
 use micropoly::core::reconstruction::{MAX_RADIUS, MIN_RADIUS};
+use micropoly::cull::Cull;
 use micropoly::diff::Thresholds;
 use micropoly::mesh::Format;
-use micropoly::cull::Cull;
 use micropoly::{
     Backend, Batch, Blur, Borders, Error, Filter, FrameOptions, Kernel, Lens, Oracle, Profile, Rasteriser,
     Reading, RenderOptions, Samples, Scene, Scheduler, Shading, Window, extension,
@@ -163,7 +163,15 @@ impl RenderArguments {
         let filter = Filter::of(self.filter.into());
         let filter = Filter { radius: self.filter_radius.unwrap_or(filter.radius), ..filter };
         let (cull, wave) = (self.cull.into(), self.wave.unwrap_or(0));
-        RenderOptions { backend: self.backend.into(), device, crop, filter, cull, wave, ..self.frame.options() }
+        RenderOptions {
+            backend: self.backend.into(),
+            device,
+            crop,
+            filter,
+            cull,
+            wave,
+            ..self.frame.options()
+        }
     }
 
     /// Shutter and lens: the scene's own, but for what was given.
@@ -335,11 +343,15 @@ pub(crate) struct BenchArguments {
     /// sort-last to compare with. Without a scene: the built-in teapot.
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing"])]
     pub(crate) raster: bool,
+    /// Measure culling of whole patches instead: each way to cull, and how many times fewer surfaces and less time that takes.
+    /// Without a scene: scenes/city.toml.
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster"])]
+    pub(crate) culling: bool,
     /// Measure how cages become patches instead: regular tori, tori with extraordinary vertices, and triangles.
-    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "scenes"])]
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "culling", "scenes"])]
     pub(crate) cage: bool,
     /// Measure the tessellator instead: meshes × levels (Stadlbauer 2019, ch. 6), within --memory (256 MiB unless given).
-    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "scenes"])]
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "culling", "cage", "scenes"])]
     pub(crate) tess: bool,
     /// Measure along the camera's path of each scene, and say at which frame breadth needs most memory: the
     /// spike view. Without a scene: the built-in city.

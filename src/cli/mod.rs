@@ -14,6 +14,7 @@ mod accel;
 mod args;
 mod bench;
 mod bench_cage;
+mod bench_cull;
 mod bench_dicing;
 mod bench_raster;
 mod bench_tess;
@@ -61,6 +62,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Accel(arguments) => accel::run(&arguments),
         Command::TessPattern(arguments) => tess_pattern::run(&arguments),
         Command::Bench(arguments) if arguments.tess => bench_tess::run(&arguments),
+        Command::Bench(arguments) if arguments.culling => bench_cull::run(&arguments),
         Command::Bench(arguments) if arguments.cage => bench_cage::run(&arguments),
         Command::Bench(arguments) if arguments.raster => bench_raster::run(&arguments),
         Command::Bench(arguments) if arguments.dicing => bench_dicing::run(&arguments),
