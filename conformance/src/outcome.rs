@@ -45,8 +45,19 @@ impl Case {
         let frame = self.filtered();
         let Frame { levels, width, height, .. } = frame;
         let area = Area::of(&frame);
-        let sizes =
-            Sizes { patches, records, objects, listed: 0, batch, scheduler, capacity, levels, width, height, area };
+        let sizes = Sizes {
+            patches,
+            records,
+            objects,
+            listed: 0,
+            batch,
+            scheduler,
+            capacity,
+            levels,
+            width,
+            height,
+            area,
+        };
         FramePlan::with_sizes(frame, sizes)
     }
 

@@ -137,7 +137,19 @@ impl FramePlan {
         let (records, area) = (patches, Area::of(&frame));
         Self::with_sizes(
             frame,
-            Sizes { patches, records, objects, listed: 0, batch, scheduler, capacity, levels, width, height, area },
+            Sizes {
+                patches,
+                records,
+                objects,
+                listed: 0,
+                batch,
+                scheduler,
+                capacity,
+                levels,
+                width,
+                height,
+                area,
+            },
         )
     }
 

@@ -41,8 +41,9 @@ impl Stack {
         let (patches, stack_room) = (self.roots, self.surfaces.len() as u32);
         let limits = Limits { patches, batch: p, stack_room, levels, ..Limits::default() };
         let control = take(flush(self.control), &limits, &self.surfaces);
-        let batch: Vec<Surface> =
-            (0..control.taken).map(|item| member(&control, &self.surfaces, Surface::default(), item)).collect();
+        let batch: Vec<Surface> = (0..control.taken)
+            .map(|item| member(&control, &self.surfaces, Surface::default(), item))
+            .collect();
         let verdict = |(index, surface): (usize, &Surface)| {
             let axis = if surface.u_level() < MAX_SPLITS { SPLIT_U } else { SPLIT_V };
             let code = if chosen(index) && surface.level() + 1 < levels { axis } else { CULL };
