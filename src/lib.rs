@@ -26,6 +26,7 @@ pub mod cage;
 pub mod cage_bench;
 mod canvas;
 pub mod cull;
+pub mod culling;
 pub mod curve;
 pub mod devices;
 pub mod dicing;

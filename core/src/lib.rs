@@ -20,6 +20,7 @@
 //! | layers that can be seen through are put together | [`kernel::blend::blend`] | `kernel/blend.rs` |
 //! | samples become pixels | [`kernel::filter::filter`] | `kernel/filter.rs`, `reconstruction.rs` |
 //! | who calls what, in which order | [`schedule::Bounded`], [`render::FramePlan`] | `schedule/`, `render.rs` |
+//! | which samples a whole patch can touch, and how near it is | [`cull::Sight::of_patch`] | `cull.rs` |
 //! | how much memory that can ever need | [`memory`] | `memory.rs` |
 //! | the tessellation stage that WebGPU has not got | [`tess`], [`kernel::tess_evaluate`] | `tess/`, `kernel/tess_*.rs` |
 //! | does a device compute as it must | [`known::check`] | `known.rs`, `kernel/known_answers.rs` |

@@ -384,11 +384,15 @@ pub(crate) struct BenchArguments {
     /// sort-last to compare with. Without a scene: the built-in teapot.
     #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing"])]
     pub(crate) raster: bool,
+    /// Measure culling of whole patches instead: each way to cull, and how many times fewer surfaces and less time that takes.
+    /// Without a scene: scenes/city.toml.
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster"])]
+    pub(crate) culling: bool,
     /// Measure how cages become patches instead: regular tori, tori with extraordinary vertices, and triangles.
-    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "scenes"])]
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "culling", "scenes"])]
     pub(crate) cage: bool,
     /// Measure the tessellator instead: meshes × levels (Stadlbauer 2019, ch. 6), within --memory (256 MiB unless given).
-    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "cage", "scenes"])]
+    #[arg(long, conflicts_with_all = ["path", "at", "plot", "csv", "dicing", "raster", "culling", "cage", "scenes"])]
     pub(crate) tess: bool,
     /// Measure transparency order instead: grids × tolerances (Imre 2016, Table 6.1), of the meshes (.obj) that are given,
     /// or a built-in torus.

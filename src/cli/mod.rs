@@ -16,6 +16,7 @@ mod bench;
 #[cfg(feature = "cpu")]
 mod bench_accel;
 mod bench_cage;
+mod bench_cull;
 mod bench_dicing;
 mod bench_raster;
 mod bench_tess;
@@ -71,6 +72,7 @@ pub(crate) fn main() -> ExitCode {
             bench_accel::run(mesh, arguments)
         }
         Command::Bench(arguments) if arguments.tess => bench_tess::run(&arguments),
+        Command::Bench(arguments) if arguments.culling => bench_cull::run(&arguments),
         Command::Bench(arguments) if arguments.cage => bench_cage::run(&arguments),
         Command::Bench(arguments) if arguments.raster => bench_raster::run(&arguments),
         Command::Bench(arguments) if arguments.dicing => bench_dicing::run(&arguments),

@@ -2,7 +2,7 @@
 //! been drawn so far. Neither changes a bit of the image.
 //!
 //! Patches are taken in waves, from front to back; before each wave the depths are read back that the waves before it left
-//! ([`depths`]). Where waves end depends on the scene and its options only, so what is culled does, too.
+//! (`depths.rs`). Where waves end depends on the scene and its options only, so what is culled does, too.
 
 mod depths;
 mod front;
