@@ -60,6 +60,17 @@ pub enum Transparency {
     Order(Ordering),
 }
 
+impl Transparency {
+    /// Its name, on the command line and in statistics.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Layers => "layers",
+            Self::Order(_) => "order",
+        }
+    }
+}
+
 /// How triangles are sorted (see [`micropoly_core::accel::bsp`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ordering {

@@ -155,6 +155,8 @@ pub struct Options {
     pub shading: &'static str,
     /// How grids got to their samples.
     pub rasteriser: &'static str,
+    /// How what can be seen through was put into order.
+    pub transparency: &'static str,
     /// Pixels a side of a tile; 0 = as the device liked it.
     pub tile: u32,
     /// Which patches were left out.
@@ -223,6 +225,7 @@ fn effective(options: &RenderOptions, sizes: &Sizes) -> Options {
         filter_radius: options.filter.radius,
         shading: frame.shading.name(),
         rasteriser: frame.rasteriser.name(),
+        transparency: options.transparency.name(),
         tile: frame.tile,
         cull: options.cull.name(),
         crop: options.crop.map(|Window { left, right, top, bottom }| [left, top, right, bottom]),

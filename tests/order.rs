@@ -265,6 +265,22 @@ fn nothing_else_changes_the_image() {
 }
 
 #[test]
+fn backs_can_be_left_out() {
+    let scene = tori();
+    let options = |transparency, cull_backfaces| {
+        let frame = FrameOptions { cull_backfaces, ..layered().frame };
+        RenderOptions { frame, transparency, ..layered() }
+    };
+    let order = Transparency::Order(Ordering::default());
+    let share = |a, b, culled| {
+        different(&rendered(&scene, &options(a, culled)), &rendered(&scene, &options(b, true)))
+    };
+    // The other way round it would be 0.16.
+    assert!(share(order, Transparency::Layers, true) < 0.05);
+    assert!(share(order, order, false) > 0.1);
+}
+
+#[test]
 fn what_cannot_be_sorted_is_an_error() {
     let message = |scene: &Scene| {
         let error = render(scene, &ordered(None), |_| {}).expect_err("cannot be sorted");

@@ -3,13 +3,13 @@
 use micropoly_core::accel::bsp::cells::{slab_of, slab_plane, slabs_of};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
-use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side, whole};
+use micropoly_core::accel::bsp::polygon::{Corner, Cutter, Knife, side, whole};
 use rayon::prelude::*;
 
 /// Triangles that one thread cuts in a row.
 const TRIANGLES_AT_ONCE: usize = 2048;
 
-/// A part of a triangle: some corners of a list.
+/// A part of a triangle: some corners of a list; none if it is all of the triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub(super) triangle: u32,
@@ -49,13 +49,24 @@ impl Parts {
         self.places.len()
     }
 
-    /// Copies the parts of a cell.
-    pub(super) fn copy(&self, cell: usize, parts: &mut Vec<Part>, corners: &mut Vec<Corner>) {
+    /// Copies the parts of a cell, all with corners.
+    pub(super) fn copy(
+        &self,
+        cell: usize,
+        triangles: &[[Point; 3]],
+        parts: &mut Vec<Part>,
+        corners: &mut Vec<Corner>,
+    ) {
         for &(share, part) in &self.places[self.first[cell] as usize..self.first[cell + 1] as usize] {
             let share = &self.shares[share as usize];
             let part = share.parts[part as usize];
-            parts.push(Part { first: corners.len() as u32, ..part });
-            corners.extend_from_slice(part.corners(&share.corners));
+            let first = corners.len() as u32;
+            if part.count == 0 {
+                corners.extend(whole(&triangles[part.triangle as usize]));
+            } else {
+                corners.extend_from_slice(part.corners(&share.corners));
+            }
+            parts.push(Part { first, count: corners.len() as u32 - first, ..part });
         }
     }
 }
@@ -106,12 +117,11 @@ struct Slicer<'a> {
 
 impl Slicer<'_> {
     fn cut(&mut self, number: u32, triangle: &[Point; 3]) {
-        let piece = whole(triangle);
         let ranges = [0, 1, 2].map(|axis| slabs_of(&self.slabs[axis], axis, triangle));
         if ranges.iter().all(|[first, last]| first == last) {
-            self.keep(number, ranges.map(|[first, _]| first), &piece);
+            self.keep(number, ranges.map(|[first, _]| first), &[]);
         } else {
-            self.along(0, [0; 3], number, triangle, piece.to_vec());
+            self.along(0, [0; 3], number, triangle, whole(triangle).to_vec());
         }
     }
 
@@ -137,10 +147,10 @@ impl Slicer<'_> {
                 (_, false) => return self.along(axis + 1, cell, number, triangle, piece),
                 (false, true) => {}
                 (true, true) => {
-                    let cut = |keeps_back| Cut::new(Cutter::Slab { axis, slab }, keeps_back);
-                    let kept = self.clipped(triangle, &piece, &plane, cut(true));
-                    let later = self.clipped(triangle, &piece, &plane, cut(false));
-                    self.spare.push(std::mem::replace(&mut piece, later));
+                    let later = self.spare.pop().unwrap_or_default();
+                    let whole = std::mem::replace(&mut piece, later);
+                    let kept = self.split(triangle, &whole, &plane, Cutter::Slab { axis, slab }, &mut piece);
+                    self.spare.push(whole);
                     self.along(axis + 1, cell, number, triangle, kept);
                 }
             }
@@ -149,13 +159,21 @@ impl Slicer<'_> {
         self.along(axis + 1, cell, number, triangle, piece);
     }
 
-    /// What a cut keeps of a piece whose sides are noted.
-    fn clipped(&mut self, triangle: &[Point; 3], piece: &[Corner], plane: &Plane, cut: Cut) -> Vec<Corner> {
-        let mut corners = self.spare.pop().unwrap_or_default();
-        corners.clear();
+    /// Cuts a piece whose sides are noted: gives what is behind the plane; what is before it goes to a list.
+    fn split(
+        &mut self,
+        triangle: &[Point; 3],
+        piece: &[Corner],
+        plane: &Plane,
+        cutter: Cutter,
+        before: &mut Vec<Corner>,
+    ) -> Vec<Corner> {
+        let mut behind = self.spare.pop().unwrap_or_default();
+        before.clear();
+        behind.clear();
         let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
-        knife.clip(piece, cut, |corner| corners.push(corner));
-        corners
+        knife.split(piece, cutter, |corner| before.push(corner), |corner| behind.push(corner));
+        behind
     }
 
     /// Notes on which sides of a plane the corners of a piece are; says whether some are behind and before it.

@@ -2,7 +2,7 @@
 
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
-use micropoly_core::abi::{Colour, Frame, Object, Sample};
+use micropoly_core::abi::{Colour, FLAG_CULL_BACKFACES, Frame, Object, Sample};
 use micropoly_core::accel::bsp::plane::Rough;
 use micropoly_core::accel::bsp::polygon::{Corner, Knife, side, whole};
 use micropoly_core::accel::bsp::show::{Eye, Face};
@@ -160,6 +160,9 @@ impl Band<'_> {
         let BspShot { grid, faces, frame, sight: BspSight { eye, .. }, .. } = *self.shot;
         let number = grid.pieces[piece as usize].triangle as usize;
         let Some(sight) = Sight::new(&eye.view, &grid.triangles[number]) else { return };
+        if frame.flags & FLAG_CULL_BACKFACES != 0 && !grid.planes[number].is_before(eye.view.eye) {
+            return;
+        }
         self.lines.clear();
         self.lines.extend(grid.cuts_of(piece).iter().map(|cut| grid.line(number, *cut)));
         self.glances.clear();
@@ -252,9 +255,15 @@ impl BspGrid {
             sides.clear();
             sides.extend((0..corners.len()).map(|k| side(triangle, corners, k, &plane, &rough) as i8));
             if sides.contains(&1) && sides.contains(&-1) {
-                let all = std::mem::take(corners);
                 let knife = Knife { triangle, line: plane.values(*triangle), sides: &sides };
-                knife.clip(&all, *cut, |corner| corners.push(corner));
+                let (mut before, mut behind) = (Vec::new(), Vec::new());
+                knife.split(
+                    corners,
+                    cut.cutter(),
+                    |corner| before.push(corner),
+                    |corner| behind.push(corner),
+                );
+                *corners = if cut.keeps_back() { behind } else { before };
             }
         }
     }

@@ -7,8 +7,10 @@ use rayon::prelude::*;
 use super::BspGrid;
 use crate::device::CpuDevice;
 
-/// Pieces that one thread works off in a row, about.
-const PIECES_AT_ONCE: usize = 1 << 14;
+/// Planes that one thread works off in a row.
+const PLANES_AT_ONCE: usize = 1 << 14;
+/// Cells that one thread works off in a row.
+const CELLS_AT_ONCE: usize = 256;
 
 /// Lists that sorting needs, to be used again.
 #[derive(Clone, Debug, Default)]
@@ -19,9 +21,9 @@ pub struct BspOrder {
     places: Vec<u32>,
 }
 
-/// Trees, the places of their nodes and pieces.
+/// Some trees, and where the places of their nodes and the order of their pieces go.
 struct Work<'a> {
-    cells: Vec<usize>,
+    cells: &'a [usize],
     places: &'a mut [u32],
     order: &'a mut [u32],
 }
@@ -42,48 +44,47 @@ fn sort(grid: &BspGrid, eye: [i64; 3], order: &mut BspOrder) {
     is_before
         .par_iter_mut()
         .zip(&grid.planes)
-        .with_min_len(PIECES_AT_ONCE)
+        .with_min_len(PLANES_AT_ONCE)
         .for_each(|(is_before, plane)| *is_before = u8::from(plane.is_before(eye)));
     let is_before = &is_before[..];
-    shared(grid, eye, places, pieces).into_par_iter().for_each(|work| grid.rank(work, is_before));
+    let cells = far_to_near_cells(grid, eye);
+    let works = shared(grid, &cells, places, pieces);
+    works.into_par_iter().for_each(|work| grid.rank(work, is_before));
 }
 
-/// Cells in order, some at a time.
-fn shared<'a>(grid: &BspGrid, eye: [i64; 3], places: &'a mut [u32], order: &'a mut [u32]) -> Vec<Work<'a>> {
-    let mut all = Vec::new();
-    let (mut cells, mut nodes, mut pieces) = (Vec::new(), 0, 0);
-    let (mut places, mut order) = (places, order);
-    let mut close = |cells: &mut Vec<usize>, nodes: &mut usize, pieces: &mut usize| {
-        let (own_places, later) = std::mem::take(&mut places).split_at_mut(*nodes);
-        places = later;
-        let (own_order, later) = std::mem::take(&mut order).split_at_mut(*pieces);
-        order = later;
-        all.push(Work { cells: std::mem::take(cells), places: own_places, order: own_order });
-        (*nodes, *pieces) = (0, 0);
-    };
+/// Cells with something in them, far to near.
+fn far_to_near_cells(grid: &BspGrid, eye: [i64; 3]) -> Vec<usize> {
     let [xs, ys, zs] = [0, 1, 2].map(|axis| {
         let ends = &grid.slabs[axis];
         far_to_near(ends.len() as u32, slab_of(ends, eye[axis]))
     });
+    let [_, rows, columns] = grid.slabs.each_ref().map(Vec::len);
+    let mut cells = Vec::new();
     for x in xs {
         for y in ys.clone() {
-            let row = (x as usize * grid.slabs[1].len() + y as usize) * grid.slabs[2].len();
-            for z in zs.clone() {
-                let cell = row + z as usize;
-                let count = grid.nodes_of(cell).len();
-                if count > 0 {
-                    cells.push(cell);
-                    nodes += count;
-                    pieces += grid.pieces_of(cell).len();
-                }
-            }
-        }
-        if pieces > PIECES_AT_ONCE {
-            close(&mut cells, &mut nodes, &mut pieces);
+            let row = (x as usize * rows + y as usize) * columns;
+            let cell = |z: u32| row + z as usize;
+            cells.extend(zs.clone().map(cell).filter(|cell| !grid.nodes_of(*cell).is_empty()));
         }
     }
-    close(&mut cells, &mut nodes, &mut pieces);
-    all
+    cells
+}
+
+/// Cuts lists into those of some cells each.
+fn shared<'a>(
+    grid: &BspGrid,
+    cells: &'a [usize],
+    mut places: &'a mut [u32],
+    mut order: &'a mut [u32],
+) -> Vec<Work<'a>> {
+    let share = |cells: &'a [usize]| {
+        let nodes = cells.iter().map(|cell| grid.nodes_of(*cell).len()).sum();
+        let pieces = cells.iter().map(|cell| grid.pieces_of(*cell).len()).sum();
+        let own_places = places.split_off_mut(..nodes).unwrap_or_default();
+        let own_order = order.split_off_mut(..pieces).unwrap_or_default();
+        Work { cells, places: own_places, order: own_order }
+    };
+    cells.chunks(CELLS_AT_ONCE).map(share).collect()
 }
 
 impl BspGrid {
@@ -98,11 +99,9 @@ impl BspGrid {
     fn rank(&self, work: Work<'_>, is_before: &[u8]) {
         let (mut places, mut order) = (work.places, work.order);
         for cell in work.cells {
-            let (nodes, pieces) = (self.nodes_of(cell), self.pieces_of(cell));
-            let (own_places, later) = places.split_at_mut(nodes.len());
-            places = later;
-            let (own_order, later) = order.split_at_mut(pieces.len());
-            order = later;
+            let (nodes, pieces) = (self.nodes_of(*cell), self.pieces_of(*cell));
+            let own_places = places.split_off_mut(..nodes.len()).unwrap_or_default();
+            let own_order = order.split_off_mut(..pieces.len()).unwrap_or_default();
             rank(&self.nodes[nodes], is_before, pieces.start as u32, own_places, own_order);
         }
     }

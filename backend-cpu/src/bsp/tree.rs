@@ -115,8 +115,9 @@ struct Gardener<'a> {
     trees: Trees,
     /// Of all parts of the cell in work.
     corners: Vec<Corner>,
-    /// The part that is being cut, and its corners' sides.
+    /// The part that is being cut, what of it is behind the plane, and its corners' sides.
     piece: Vec<Corner>,
+    behind: Vec<Corner>,
     sides: Vec<i8>,
     jury: Jury,
     judged: [Side; JUDGES],
@@ -124,7 +125,7 @@ struct Gardener<'a> {
 
 impl<'a> Gardener<'a> {
     fn new(triangles: &'a [[Point; 3]], planes: &'a [Plane], rules: &'a Rules) -> Self {
-        let (corners, piece, sides) = (Vec::new(), Vec::new(), Vec::new());
+        let (corners, piece, behind, sides) = Default::default();
         Self {
             triangles,
             planes,
@@ -132,6 +133,7 @@ impl<'a> Gardener<'a> {
             trees: Trees::default(),
             corners,
             piece,
+            behind,
             sides,
             jury: Jury::default(),
             judged: [Side::Unsure; JUDGES],
@@ -143,7 +145,7 @@ impl<'a> Gardener<'a> {
         let (mut waiting, mut now) = (Vec::new(), Vec::new());
         let (mut before, mut behind) = (Vec::new(), Vec::new());
         self.corners.clear();
-        parts.copy(cell, &mut waiting, &mut self.corners);
+        parts.copy(cell, self.triangles, &mut waiting, &mut self.corners);
         let root = self.trees.nodes.len();
         let mut tasks = Vec::new();
         if !waiting.is_empty() {
@@ -193,9 +195,9 @@ impl<'a> Gardener<'a> {
                 Side::Before => before.push(*part),
                 Side::Behind => behind.push(*part),
                 Side::Cut => {
-                    self.note(*part, &plane, &rough);
-                    before.push(self.clipped(*part, &plane, Cut::new(Cutter::Triangle(triangle), false)));
-                    behind.push(self.clipped(*part, &plane, Cut::new(Cutter::Triangle(triangle), true)));
+                    let [front, back] = self.split(*part, &plane, &rough, Cutter::Triangle(triangle));
+                    before.push(front);
+                    behind.push(back);
                 }
             }
         }
@@ -250,22 +252,21 @@ impl<'a> Gardener<'a> {
         Side::of(before, behind)
     }
 
-    /// Notes a part that is to be cut, and on which sides of a plane its corners are.
-    fn note(&mut self, part: Part, plane: &Plane, rough: &Rough) {
+    /// What of a part is before a plane, and what is behind it.
+    fn split(&mut self, part: Part, plane: &Plane, rough: &Rough, cutter: Cutter) -> [Part; 2] {
         let triangle = &self.triangles[part.triangle as usize];
         self.piece.clear();
         self.piece.extend_from_slice(part.corners(&self.corners));
         self.sides.clear();
         self.sides.extend((0..self.piece.len()).map(|k| side(triangle, &self.piece, k, plane, rough) as i8));
-    }
-
-    /// What a cut keeps of the part that was noted.
-    fn clipped(&mut self, part: Part, plane: &Plane, cut: Cut) -> Part {
-        let (triangle, first) = (&self.triangles[part.triangle as usize], self.corners.len());
-        let corners = &mut self.corners;
         let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
-        knife.clip(&self.piece, cut, |corner| corners.push(corner));
-        Part { first: first as u32, count: (self.corners.len() - first) as u32, ..part }
+        let (corners, behind) = (&mut self.corners, &mut self.behind);
+        let first = corners.len() as u32;
+        knife.split(&self.piece, cutter, |corner| corners.push(corner), |corner| behind.push(corner));
+        let middle = corners.len() as u32;
+        corners.append(behind);
+        let end = corners.len() as u32;
+        [Part { first, count: middle - first, ..part }, Part { first: middle, count: end - middle, ..part }]
     }
 
     /// A part becomes a piece.

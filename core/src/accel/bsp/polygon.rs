@@ -47,7 +47,7 @@ const AXIS_SHIFT: u32 = 28;
 /// Most triangles and slabs that cuts can name.
 pub const MOST_TRIANGLES: u32 = 1 << 30;
 /// Most slabs of cells along an axis.
-pub const MOST_SLABS: u32 = 1 << 10;
+pub const MOST_SLABS: u32 = 1 << 8;
 
 impl Cut {
     /// No cut.
@@ -125,22 +125,37 @@ pub struct Knife<'a> {
 }
 
 impl Knife<'_> {
-    /// Tells the corners of what of a piece is on the side of the plane that a cut keeps.
+    /// Cuts a piece in two; tells the corners of what is before the plane, and of what is behind it.
     #[inline]
-    pub fn clip(&self, piece: &[Corner], cut: Cut, mut tell: impl FnMut(Corner)) {
-        let way = if cut.keeps_back() { -1 } else { 1 };
-        let line = self.line.map(|value| value * i64::from(way));
+    pub fn split(
+        &self,
+        piece: &[Corner],
+        cutter: Cutter,
+        mut before: impl FnMut(Corner),
+        mut behind: impl FnMut(Corner),
+    ) {
+        let (line, back_line) = (self.line, self.line.map(|value| -value));
+        let (cut, back_cut) = (Cut::new(cutter, false), Cut::new(cutter, true));
         for (k, corner) in piece.iter().enumerate() {
             let next = if k + 1 == piece.len() { 0 } else { k + 1 };
-            let (here, there) = (i32::from(self.sides[k]) * way, i32::from(self.sides[next]) * way);
-            if here <= 0 && there <= 0 {
-                continue;
+            let (here, there) = (self.sides[k], self.sides[next]);
+            let crosses = (here > 0 && there < 0) || (here < 0 && there > 0);
+            let end = if crosses {
+                Corner { at: meet(self.triangle, corner.line, line), vertex: MADE, ..*corner }
+            } else {
+                piece[next]
+            };
+            if here > 0 || there > 0 {
+                before(if here < 0 { end } else { *corner });
+                if there <= 0 {
+                    before(Corner { line, cut, ..end });
+                }
             }
-            let meeting = || Corner { at: meet(self.triangle, corner.line, line), vertex: MADE, ..*corner };
-            tell(if here < 0 { meeting() } else { *corner });
-            if there <= 0 {
-                let end = if there == 0 { piece[next] } else { meeting() };
-                tell(Corner { line, cut, ..end });
+            if here < 0 || there < 0 {
+                behind(if here > 0 { end } else { *corner });
+                if there >= 0 {
+                    behind(Corner { line: back_line, cut: back_cut, ..end });
+                }
             }
         }
     }
