@@ -22,15 +22,32 @@ struct Node {
     back: Option<Box<Node>>,
 }
 
-/// Builds it; gives the number of pieces.
-pub(super) fn build(triangles: &[Triangle]) -> usize {
+/// A tree, and how many pieces it has.
+pub(super) struct Tree {
+    root: Option<Box<Node>>,
+    pub(super) pieces: usize,
+}
+
+/// A deep tree would overflow the stack if each node dropped its own.
+impl Drop for Tree {
+    fn drop(&mut self) {
+        let mut waiting: Vec<Box<Node>> = self.root.take().into_iter().collect();
+        while let Some(mut node) = waiting.pop() {
+            waiting.extend(node.front.take());
+            waiting.extend(node.back.take());
+            std::hint::black_box(&node.own);
+        }
+    }
+}
+
+/// Builds it.
+pub(super) fn build(triangles: &[Triangle]) -> Tree {
     let mut polygons: Vec<Polygon> = triangles.iter().filter_map(polygon).collect();
     shuffle(&mut polygons);
     let longest = longest_side(&polygons);
     let mut pieces = 0;
     let root = grow(polygons, TOLERANCE * longest, &mut pieces);
-    drop_slowly(root);
-    pieces
+    Tree { root, pieces }
 }
 
 fn polygon(triangle: &Triangle) -> Option<Polygon> {
@@ -103,14 +120,4 @@ fn half(polygon: &Polygon, values: &[f64], way: f64) -> Polygon {
         }
     }
     Polygon { corners, ..*polygon }
-}
-
-/// A deep tree would overflow the stack if it dropped itself.
-fn drop_slowly(root: Option<Box<Node>>) {
-    let mut waiting: Vec<Box<Node>> = root.into_iter().collect();
-    while let Some(mut node) = waiting.pop() {
-        waiting.extend(node.front.take());
-        waiting.extend(node.back.take());
-        std::hint::black_box(&node.own);
-    }
 }

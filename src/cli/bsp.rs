@@ -25,7 +25,7 @@ pub(crate) struct SortArguments {
     /// Do not cut triangles that reach beyond a plane by no more than this share of the mesh's longest side; 0 is exact.
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = from_zero)]
     bsp_tolerance: f64,
-    /// Planes that are tried for each node.
+    /// Planes that are tried for each node of many triangles; of few all are, unless this is 1.
     #[arg(long, value_name = "N", default_value_t = BspOptions::default().candidates,
           value_parser = value_parser!(u32).range(1..=1024))]
     candidates: u32,
@@ -77,7 +77,7 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<()> {
     for (name, mesh) in meshes(&arguments.scenes)? {
         say!("{name}");
         let table = measure(&name, &mesh, arguments.repeat, |row| say!("{}", line(row)))?;
-        say_trees(&table);
+        say_naive(&table);
         tables.push(table);
     }
     match &arguments.json {
@@ -87,14 +87,10 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<()> {
 }
 
 /// How much longer than the first row one tree over all of the mesh takes, on one thread.
-fn say_trees(table: &Table) {
-    let Some(first) = table.rows.first() else { return };
-    let trees =
-        [("one tree, integers, first planes", table.one), ("one tree, floats, random planes", table.naive)];
-    for (what, OneTree { growth, milliseconds }) in trees {
-        let ratio = milliseconds / first.cut.milliseconds;
-        say!("{what}: growth {growth:.2}, {milliseconds:.1} ms, {ratio:.1} times the first row's");
-    }
+fn say_naive(Table { rows, naive: OneTree { growth, milliseconds } }: &Table) {
+    let Some(first) = rows.first() else { return };
+    let ratio = milliseconds / first.cut.milliseconds;
+    say!("one naive tree: growth {growth:.2}, {milliseconds:.1} ms, {ratio:.1} times the first row's");
 }
 
 fn line(Row { cut, sorted, .. }: &Row) -> String {

@@ -1,20 +1,27 @@
-//! Triangles are cut into the cells of a grid: each thread fills a list of parts, then they are counted into cells.
+//! Triangles go to the cells of a grid: each thread fills a list of parts, then they are counted into cells.
+//!
+//! What is about as large as a cell or smaller stays whole in each cell that it touches, with the planes between cells as
+//! cuts: nothing is rounded, and few trees cut it where it is not. What is larger is cut to size.
 
-use micropoly_core::accel::bsp::cells::{slab_of, slab_plane, slabs_of};
+use micropoly_core::accel::bsp::cells::{quadrants, slab_of, slab_plane, slabs_of};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
-use micropoly_core::accel::bsp::polygon::{Corner, Cutter, Knife, side, whole};
+use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side, whole};
 use rayon::prelude::*;
 
 /// Triangles that one thread cuts in a row.
 const TRIANGLES_AT_ONCE: usize = 2048;
 
-/// A part of a triangle: some corners of a list; none if it is all of the triangle.
+/// A part of a triangle: some corners of a list, and of that what is between some slabs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub(super) triangle: u32,
     pub(super) first: u32,
+    /// So many corners; of a whole triangle's there may be none in the list yet.
     pub(super) count: u32,
+    pub(super) is_whole: bool,
+    /// Cuts by slabs that its corners do not have.
+    pub(super) slabs: [Cut; 3],
 }
 
 impl Part {
@@ -49,36 +56,33 @@ impl Parts {
         self.places.len()
     }
 
-    /// Copies the parts of a cell, all with corners.
-    pub(super) fn copy(
-        &self,
-        cell: usize,
-        triangles: &[[Point; 3]],
-        parts: &mut Vec<Part>,
-        corners: &mut Vec<Corner>,
-    ) {
+    pub(super) fn count_in(&self, cell: usize) -> usize {
+        (self.first[cell + 1] - self.first[cell]) as usize
+    }
+
+    /// Copies the parts of a cell.
+    pub(super) fn copy(&self, cell: usize, parts: &mut Vec<Part>, corners: &mut Vec<Corner>) {
         for &(share, part) in &self.places[self.first[cell] as usize..self.first[cell + 1] as usize] {
             let share = &self.shares[share as usize];
             let part = share.parts[part as usize];
-            let first = corners.len() as u32;
-            if part.count == 0 {
-                corners.extend(whole(&triangles[part.triangle as usize]));
-            } else {
-                corners.extend_from_slice(part.corners(&share.corners));
-            }
-            parts.push(Part { first, count: corners.len() as u32 - first, ..part });
+            parts.push(Part { first: corners.len() as u32, ..part });
+            corners.extend_from_slice(part.corners(&share.corners));
         }
     }
 }
 
 pub(super) fn into_cells(triangles: &[[Point; 3]], planes: &[Plane], slabs: &[Vec<i32>; 3]) -> Parts {
-    let numbers: Vec<u32> = (0..triangles.len() as u32).filter(|k| !planes[*k as usize].is_none()).collect();
-    let shares: Vec<Share> = numbers
+    let shares: Vec<Share> = triangles
         .par_chunks(TRIANGLES_AT_ONCE)
-        .map(|numbers| {
-            let mut cutter = Slicer { slabs, share: Share::default(), sides: Vec::new(), spare: Vec::new() };
-            numbers.iter().for_each(|&number| cutter.cut(number, &triangles[number as usize]));
-            cutter.share
+        .enumerate()
+        .map(|(chunk, some)| {
+            let mut slicer = Slicer::new(slabs);
+            for (number, triangle) in (chunk * TRIANGLES_AT_ONCE..).zip(some) {
+                if !planes[number].is_none() {
+                    slicer.cut(number as u32, triangle);
+                }
+            }
+            slicer.share
         })
         .collect();
     let cells = slabs.iter().map(Vec::len).product();
@@ -113,16 +117,65 @@ struct Slicer<'a> {
     sides: Vec<i8>,
     /// Lists to be used again.
     spare: Vec<Vec<Corner>>,
+    /// First and last slab of the triangle along each axis.
+    ranges: [[u32; 2]; 3],
 }
 
-impl Slicer<'_> {
+impl<'a> Slicer<'a> {
+    fn new(slabs: &'a [Vec<i32>; 3]) -> Self {
+        let (sides, spare) = Default::default();
+        Self { slabs, share: Share::default(), sides, spare, ranges: [[0; 2]; 3] }
+    }
+
     fn cut(&mut self, number: u32, triangle: &[Point; 3]) {
-        let ranges = [0, 1, 2].map(|axis| slabs_of(&self.slabs[axis], axis, triangle));
-        if ranges.iter().all(|[first, last]| first == last) {
-            self.keep(number, ranges.map(|[first, _]| first), &[]);
-        } else {
-            self.along(0, [0; 3], number, triangle, whole(triangle).to_vec());
+        let [x, y, z] = self.slabs;
+        self.ranges = [slabs_of(x, 0, triangle), slabs_of(y, 1, triangle), slabs_of(z, 2, triangle)];
+        let [x, y, z] = self.ranges.map(|[first, last]| last - first);
+        match [x, y, z] {
+            [0, 0, 0] => self.keep_whole(number, [0; 3]),
+            [1, 0, 0] | [0, 1, 0] | [0, 0, 1] => {
+                self.keep_whole(number, [0; 3]);
+                self.keep_whole(number, [x, y, z]);
+            }
+            [1, 1, 0] => self.cut_across(number, triangle, [0, 1]),
+            [1, 0, 1] => self.cut_across(number, triangle, [0, 2]),
+            [0, 1, 1] => self.cut_across(number, triangle, [1, 2]),
+            _ => {
+                let mut piece = self.spare.pop().unwrap_or_default();
+                piece.clear();
+                piece.extend(whole(triangle));
+                self.along(0, [0; 3], number, triangle, piece);
+            }
         }
+    }
+
+    /// A triangle that spans two slabs along two axes.
+    fn cut_across(&mut self, number: u32, triangle: &[Point; 3], axes: [usize; 2]) {
+        let end = |axis: usize| 2 * self.slabs[axis][self.ranges[axis][0] as usize] + 1;
+        let touched = quadrants(triangle, axes, [end(axes[0]), end(axes[1])]);
+        for quadrant in (0..4).filter(|quadrant| touched >> quadrant & 1 == 1) {
+            let mut beyond = [0; 3];
+            (beyond[axes[0]], beyond[axes[1]]) = (quadrant & 1, quadrant >> 1);
+            self.keep_whole(number, beyond);
+        }
+    }
+
+    /// Keeps a triangle whole in a cell: of the two slabs along each axis in the second, or in the first (or the only) one.
+    fn keep_whole(&mut self, triangle: u32, beyond: [u32; 3]) {
+        let (mut slabs, mut cell) = ([Cut::NONE; 3], [0; 3]);
+        for axis in 0..3 {
+            let [slab, last] = self.ranges[axis];
+            cell[axis] = slab + beyond[axis];
+            if slab < last {
+                slabs[axis] = Cut::new(Cutter::Slab { axis, slab }, beyond[axis] == 0);
+            }
+        }
+        self.share.cells.push(self.number(cell));
+        self.share.parts.push(Part { triangle, first: 0, count: 0, is_whole: true, slabs });
+    }
+
+    fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
+        (x * self.slabs[1].len() as u32 + y) * self.slabs[2].len() as u32 + z
     }
 
     /// Cuts a piece along an axis and those behind it.
@@ -172,7 +225,8 @@ impl Slicer<'_> {
         before.clear();
         behind.clear();
         let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
-        knife.split(piece, cutter, |corner| before.push(corner), |corner| behind.push(corner));
+        let mut halves = [before, &mut behind];
+        knife.split(piece, cutter, |half, corner, _| halves[half].push(corner));
         behind
     }
 
@@ -184,11 +238,15 @@ impl Slicer<'_> {
         (self.sides.contains(&-1), self.sides.contains(&1))
     }
 
-    fn keep(&mut self, triangle: u32, [x, y, z]: [u32; 3], piece: &[Corner]) {
-        let [_, rows, columns] = [0, 1, 2].map(|axis| self.slabs[axis].len() as u32);
-        let Share { parts, cells, corners } = &mut self.share;
-        cells.push((x * rows + y) * columns + z);
-        parts.push(Part { triangle, first: corners.len() as u32, count: piece.len() as u32 });
+    /// Keeps what was cut: its corners only if the triangle is large.
+    fn keep(&mut self, triangle: u32, cell: [u32; 3], piece: &[Corner]) {
+        if self.ranges.iter().all(|[first, last]| last - first <= 1) {
+            return self.keep_whole(triangle, [0, 1, 2].map(|axis| cell[axis] - self.ranges[axis][0]));
+        }
+        self.share.cells.push(self.number(cell));
+        let Share { parts, corners, .. } = &mut self.share;
+        let (first, count) = (corners.len() as u32, piece.len() as u32);
+        parts.push(Part { triangle, first, count, is_whole: false, slabs: [Cut::NONE; 3] });
         corners.extend_from_slice(piece);
     }
 }

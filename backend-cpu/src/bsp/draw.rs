@@ -243,7 +243,7 @@ impl BspGrid {
         around(&places, 0.5 * near).map(|[low, high]| [limited(low - MARGIN), limited(high + MARGIN)])
     }
 
-    /// The corners of a piece.
+    /// The corners of a piece; none if there is nothing between its cuts.
     pub fn corners_of(&self, piece: u32, corners: &mut Vec<Corner>) {
         let triangle = &self.triangles[self.pieces[piece as usize].triangle as usize];
         corners.clear();
@@ -254,16 +254,14 @@ impl BspGrid {
             let rough = Rough::of(&plane);
             sides.clear();
             sides.extend((0..corners.len()).map(|k| side(triangle, corners, k, &plane, &rough) as i8));
+            if !sides.contains(&if cut.keeps_back() { -1 } else { 1 }) {
+                return corners.clear();
+            }
             if sides.contains(&1) && sides.contains(&-1) {
                 let knife = Knife { triangle, line: plane.values(*triangle), sides: &sides };
-                let (mut before, mut behind) = (Vec::new(), Vec::new());
-                knife.split(
-                    corners,
-                    cut.cutter(),
-                    |corner| before.push(corner),
-                    |corner| behind.push(corner),
-                );
-                *corners = if cut.keeps_back() { behind } else { before };
+                let mut halves = [Vec::new(), Vec::new()];
+                knife.split(corners, cut.cutter(), |half, corner, _| halves[half].push(corner));
+                *corners = std::mem::take(&mut halves[usize::from(cut.keeps_back())]);
             }
         }
     }

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | triangles are cut into the cells of a grid | `cut.rs` |
 //! | a tree in each cell | `tree.rs` |
+//! | the rest of a tree, once few parts are left | `few.rs` |
+//! | corners that those have in common | `shared.rs` |
 //! | the order of all pieces for an eye | `sort.rs` |
 //! | samples that blend them in that order | `draw.rs` |
 //!
@@ -12,6 +14,8 @@
 
 mod cut;
 mod draw;
+mod few;
+mod shared;
 mod sort;
 mod tree;
 
@@ -36,7 +40,8 @@ pub struct BspOptions {
     pub grid: Option<u32>,
     /// What is nearer to a plane than this share of the longest side of the mesh is not cut by it; 0 is exact.
     pub tolerance: f64,
-    /// Planes that are tried for each node: the more, the fewer pieces, and the longer it takes.
+    /// Planes that are tried for each node of many pieces: the more, the fewer pieces, and the longer it takes. Of few
+    /// pieces all are tried; with 1 always the first is taken.
     pub candidates: u32,
     /// Most pieces that there may be.
     pub most_pieces: u32,
@@ -44,7 +49,7 @@ pub struct BspOptions {
 
 impl Default for BspOptions {
     fn default() -> Self {
-        Self { grid: None, tolerance: 0.0, candidates: 6, most_pieces: 1 << 28 }
+        Self { grid: None, tolerance: 0.0, candidates: 4, most_pieces: 1 << 28 }
     }
 }
 

@@ -2,15 +2,17 @@
 
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
-use micropoly_core::accel::bsp::choose::{JUDGES, Jury, Side};
+use micropoly_core::accel::bsp::choose::{Jury, Side};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
-use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side};
+use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side, whole};
 use micropoly_core::accel::bsp::rank::BspNode;
+use micropoly_core::accel::bsp::table::FEW;
 use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::cut::{Part, Parts};
+use super::few::Few;
 use super::{BspError, Piece};
 
 /// Cells that one thread works off in a row.
@@ -32,6 +34,18 @@ pub(super) struct Trees {
     pub(super) cuts: Vec<Cut>,
 }
 
+impl Trees {
+    /// With room for those of so many parts, unless they are cut much.
+    fn for_parts(parts: usize) -> Self {
+        let room = parts + parts / 2;
+        Self {
+            nodes: Vec::with_capacity(room),
+            pieces: Vec::with_capacity(room),
+            cuts: Vec::with_capacity(2 * room),
+        }
+    }
+}
+
 /// The trees of all cells.
 pub(super) struct Forest {
     pub(super) all: Trees,
@@ -51,46 +65,53 @@ pub(super) fn build(
     let cells: Vec<usize> = (0..parts.cells()).collect();
     let grown: Result<Vec<Grown>, BspError> = cells
         .par_chunks(CELLS_AT_ONCE)
-        .map(|cells| {
-            let mut gardener = Gardener::new(triangles, planes, rules);
-            let mut ends = Vec::with_capacity(cells.len());
-            for &cell in cells {
-                gardener.plant(parts, cell)?;
-                ends.push((gardener.trees.nodes.len(), gardener.trees.pieces.len()));
-            }
-            Ok((gardener.trees, ends))
-        })
+        .map_init(
+            || Gardener::new(triangles, planes, rules),
+            |gardener, cells| {
+                let mut ends = Vec::with_capacity(cells.len());
+                gardener.trees = Trees::for_parts(cells.iter().map(|cell| parts.count_in(*cell)).sum());
+                for &cell in cells {
+                    gardener.plant(parts, cell)?;
+                    ends.push((gardener.trees.nodes.len(), gardener.trees.pieces.len()));
+                }
+                Ok((std::mem::take(&mut gardener.trees), ends))
+            },
+        )
         .collect();
-    joined(grown?, rules)
+    joined(&grown?, rules)
 }
 
 /// All of them in one list.
-fn joined(grown: Vec<Grown>, rules: &Rules) -> Result<Forest, BspError> {
+fn joined(grown: &[Grown], rules: &Rules) -> Result<Forest, BspError> {
     let pieces: usize = grown.iter().map(|(trees, _)| trees.pieces.len()).sum();
     if pieces > rules.most_pieces as usize {
         return Err(BspError::Pieces { most: rules.most_pieces });
     }
-    let mut forest = Forest { all: Trees::default(), first_nodes: vec![0], first_pieces: vec![0] };
+    let nodes = || grown.iter().map(|(trees, _)| &trees.nodes[..]).collect::<Vec<_>>().concat();
+    let cuts = || grown.iter().map(|(trees, _)| &trees.cuts[..]).collect::<Vec<_>>().concat();
+    let (nodes, (pieces, cuts)) = rayon::join(nodes, || (joined_pieces(grown, pieces), cuts()));
+    let (mut first_nodes, mut first_pieces) = (vec![0], vec![0]);
+    let mut before = (0, 0);
     for (trees, ends) in grown {
-        let Forest { all, first_nodes, first_pieces } = &mut forest;
-        let (nodes, pieces, cuts) = (all.nodes.len(), all.pieces.len(), all.cuts.len() as u32);
-        first_nodes.extend(ends.iter().map(|(end, _)| (nodes + end) as u32));
-        first_pieces.extend(ends.iter().map(|(_, end)| (pieces + end) as u32));
-        all.nodes.extend_from_slice(&trees.nodes);
-        all.pieces.extend(trees.pieces.iter().map(|p| Piece { first_cut: p.first_cut + cuts, ..*p }));
-        all.cuts.extend_from_slice(&trees.cuts);
+        first_nodes.extend(ends.iter().map(|(end, _)| (before.0 + end) as u32));
+        first_pieces.extend(ends.iter().map(|(_, end)| (before.1 + end) as u32));
+        before = (before.0 + trees.nodes.len(), before.1 + trees.pieces.len());
     }
-    Ok(forest)
+    Ok(Forest { all: Trees { nodes, pieces, cuts }, first_nodes, first_pieces })
 }
 
-/// The triangle, of some, in whose plane a node should be, of those as good the first; and on which side of it all are.
+fn joined_pieces(grown: &[Grown], count: usize) -> Vec<Piece> {
+    let (mut pieces, mut cuts) = (Vec::with_capacity(count), 0);
+    for (trees, _) in grown {
+        pieces.extend(trees.pieces.iter().map(|p| Piece { first_cut: p.first_cut + cuts, ..*p }));
+        cuts += trees.cuts.len() as u32;
+    }
+    pieces
+}
+
+/// The triangle, of some, in whose plane a node should be, of those as good the first.
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl", "x86_64+avx2"))]
-fn best(
-    jury: &Jury,
-    planes: &[Plane],
-    candidates: impl Iterator<Item = u32>,
-    sides: &mut [Side; JUDGES],
-) -> u32 {
+fn best(jury: &Jury, planes: &[Plane], candidates: impl Iterator<Item = u32>) -> u32 {
     let mut best = (u32::MAX, 0);
     for candidate in candidates {
         let cost = jury.cost(&planes[candidate as usize]);
@@ -98,29 +119,28 @@ fn best(
             best = (cost, candidate);
         }
     }
-    jury.sides(&planes[best.1 as usize], sides);
     best.1
 }
 
 /// Parts on one side of a node, at the end of the list of those that wait.
-struct Waiting {
-    first: usize,
-    parent: Option<usize>,
+pub(super) struct Waiting {
+    pub(super) first: usize,
+    pub(super) parent: Option<usize>,
 }
 
-struct Gardener<'a> {
-    triangles: &'a [[Point; 3]],
-    planes: &'a [Plane],
-    rules: &'a Rules,
-    trees: Trees,
+pub(super) struct Gardener<'a> {
+    pub(super) triangles: &'a [[Point; 3]],
+    pub(super) planes: &'a [Plane],
+    pub(super) rules: &'a Rules,
+    pub(super) trees: Trees,
     /// Of all parts of the cell in work.
-    corners: Vec<Corner>,
+    pub(super) corners: Vec<Corner>,
     /// The part that is being cut, what of it is behind the plane, and its corners' sides.
-    piece: Vec<Corner>,
-    behind: Vec<Corner>,
-    sides: Vec<i8>,
+    pub(super) piece: Vec<Corner>,
+    pub(super) behind: Vec<Corner>,
+    pub(super) sides: Vec<i8>,
+    pub(super) few: Few,
     jury: Jury,
-    judged: [Side; JUDGES],
 }
 
 impl<'a> Gardener<'a> {
@@ -135,8 +155,8 @@ impl<'a> Gardener<'a> {
             piece,
             behind,
             sides,
+            few: Few::default(),
             jury: Jury::default(),
-            judged: [Side::Unsure; JUDGES],
         }
     }
 
@@ -145,7 +165,7 @@ impl<'a> Gardener<'a> {
         let (mut waiting, mut now) = (Vec::new(), Vec::new());
         let (mut before, mut behind) = (Vec::new(), Vec::new());
         self.corners.clear();
-        parts.copy(cell, self.triangles, &mut waiting, &mut self.corners);
+        parts.copy(cell, &mut waiting, &mut self.corners);
         let root = self.trees.nodes.len();
         let mut tasks = Vec::new();
         if !waiting.is_empty() {
@@ -154,19 +174,23 @@ impl<'a> Gardener<'a> {
         while let Some(Waiting { first, parent }) = tasks.pop() {
             now.clear();
             now.extend(waiting.drain(first..));
-            let node = self.trees.nodes.len();
-            if let Some(parent) = parent {
-                self.trees.nodes[parent].to_back = (node - parent) as u32;
+            if self.trees.pieces.len() + waiting.len() + now.len() > self.rules.most_pieces as usize {
+                return Err(BspError::Pieces { most: self.rules.most_pieces });
             }
             if let [part] = now[..] {
                 self.keep(part);
-                self.trees.nodes.push(BspNode { triangle: part.triangle, own: 1, ..BspNode::default() });
+                self.node(BspNode { triangle: part.triangle, own: 1, ..BspNode::default() }, parent);
                 continue;
             }
-            self.divide(&now, &mut before, &mut behind);
-            if self.trees.pieces.len() + before.len() + behind.len() > self.rules.most_pieces as usize {
-                return Err(BspError::Pieces { most: self.rules.most_pieces });
+            if now.len() <= FEW {
+                self.grow_few(&now, parent, &mut waiting, &mut tasks);
+                continue;
             }
+            for part in now.iter_mut().filter(|part| part.count == 0) {
+                self.give_corners(part);
+            }
+            let node = self.trees.nodes.len();
+            self.divide(&now, parent, &mut before, &mut behind);
             // What is before the plane comes next.
             for (parts, parent) in [(&mut behind, Some(node)), (&mut before, None)] {
                 if !parts.is_empty() {
@@ -179,16 +203,36 @@ impl<'a> Gardener<'a> {
         Ok(())
     }
 
+    /// Gives a whole part the corners of its triangle.
+    fn give_corners(&mut self, part: &mut Part) {
+        *part = Part { first: self.corners.len() as u32, count: 3, ..*part };
+        self.corners.extend(whole(&self.triangles[part.triangle as usize]));
+    }
+
+    /// Adds a node, which may be the back of another.
+    pub(super) fn node(&mut self, node: BspNode, parent: Option<usize>) {
+        let nodes = &mut self.trees.nodes;
+        if let Some(parent) = parent {
+            nodes[parent].to_back = (nodes.len() - parent) as u32;
+        }
+        nodes.push(node);
+    }
+
     /// Makes a node of some parts; gives those on either side of it.
-    fn divide(&mut self, parts: &[Part], before: &mut Vec<Part>, behind: &mut Vec<Part>) {
-        let (triangle, are_judged) = self.choose(parts);
+    fn divide(
+        &mut self,
+        parts: &[Part],
+        parent: Option<usize>,
+        before: &mut Vec<Part>,
+        behind: &mut Vec<Part>,
+    ) {
+        let triangle = self.choose(parts);
         let plane = self.planes[triangle as usize];
         let rough = Rough::of(&plane);
         let mut own = 0;
-        for (k, part) in parts.iter().enumerate() {
-            let judged = if are_judged { self.judged[k] } else { Side::Unsure };
-            match self.side_of(*part, judged, triangle, &rough) {
-                Side::InPlane | Side::Unsure => {
+        for part in parts {
+            match self.side_of(*part, triangle, &rough) {
+                Side::InPlane => {
                     self.keep(*part);
                     own += 1;
                 }
@@ -202,33 +246,24 @@ impl<'a> Gardener<'a> {
             }
         }
         let (front, back) = (before.len() as u32, behind.len() as u32);
-        self.trees.nodes.push(BspNode { triangle, own, front, back, to_back: 0 });
+        self.node(BspNode { triangle, own, front, back, to_back: 0 }, parent);
     }
 
-    /// A triangle in the best plane of those that are tried; and does the jury say on which side of it all parts are?
-    fn choose(&mut self, parts: &[Part]) -> (u32, bool) {
+    /// A triangle in the best plane of those that are tried.
+    fn choose(&mut self, parts: &[Part]) -> u32 {
         let tried = self.rules.candidates.min(parts.len());
         if tried < 2 {
-            return (parts[0].triangle, false);
-        }
-        if let [a, b] = *parts {
-            let rough = Rough::of(&self.planes[a.triangle as usize]);
-            let is_cut = self.side_of(b, Side::Unsure, a.triangle, &rough) == Side::Cut;
-            return (if is_cut { b.triangle } else { a.triangle }, false);
+            return parts[0].triangle;
         }
         let candidates = (0..tried).map(|k| parts[k * parts.len() / tried].triangle);
         self.jury.call(parts.iter().map(|part| part.corners(&self.corners)));
-        let best = best(&self.jury, self.planes, candidates, &mut self.judged);
-        (best, parts.len() <= JUDGES && self.rules.tolerance == 0.0)
+        best(&self.jury, self.planes, candidates)
     }
 
-    /// On which side of a triangle's plane a part is, if the jury was not sure.
-    fn side_of(&self, part: Part, judged: Side, triangle: u32, rough: &Rough) -> Side {
+    /// On which side of a triangle's plane a part is.
+    fn side_of(&self, part: Part, triangle: u32, rough: &Rough) -> Side {
         if part.triangle == triangle {
             return Side::InPlane;
-        }
-        if judged != Side::Unsure {
-            return judged;
         }
         let piece = part.corners(&self.corners);
         if self.rules.tolerance > 0.0 {
@@ -262,19 +297,29 @@ impl<'a> Gardener<'a> {
         let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
         let (corners, behind) = (&mut self.corners, &mut self.behind);
         let first = corners.len() as u32;
-        knife.split(&self.piece, cutter, |corner| corners.push(corner), |corner| behind.push(corner));
+        let mut halves = [&mut *corners, &mut *behind];
+        knife.split(&self.piece, cutter, |half, corner, _| halves[half].push(corner));
         let middle = corners.len() as u32;
         corners.append(behind);
         let end = corners.len() as u32;
+        let part = Part { is_whole: false, ..part };
         [Part { first, count: middle - first, ..part }, Part { first: middle, count: end - middle, ..part }]
     }
 
     /// A part becomes a piece.
-    fn keep(&mut self, part: Part) {
+    pub(super) fn keep(&mut self, part: Part) {
         let Trees { pieces, cuts, .. } = &mut self.trees;
         pieces.push(Piece { triangle: part.triangle, first_cut: cuts.len() as u32 });
-        let made = part.corners(&self.corners).iter().map(|corner| corner.cut);
-        cuts.extend(made.filter(|cut| *cut != Cut::NONE));
+        for cut in part.slabs {
+            if cut != Cut::NONE {
+                cuts.push(cut);
+            }
+        }
+        for corner in part.corners(&self.corners) {
+            if corner.cut != Cut::NONE {
+                cuts.push(corner.cut);
+            }
+        }
     }
 
     /// Counts what is on either side of the nodes from `root` on; so far each knows whether there is anything.

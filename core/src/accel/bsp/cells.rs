@@ -16,7 +16,23 @@ pub fn far_to_near(slabs: u32, eye_slab: u32) -> impl Iterator<Item = u32> + Clo
 /// is in it: all others are behind it.
 #[must_use]
 pub fn slab_of(ends: &[i32], at: i64) -> u32 {
-    ends.partition_point(|end| i64::from(*end) < at) as u32
+    let last = ends.len() - 1;
+    let (first_end, last_end) = (i64::from(ends[0]), i64::from(ends[last]));
+    if at <= first_end {
+        return 0;
+    }
+    if at > last_end {
+        return ends.len() as u32;
+    }
+    // Slabs are about as large as each other: this is the one, or next to it.
+    let mut slab = ((at - first_end) as u64 * last as u64 / (last_end - first_end) as u64) as usize;
+    while i64::from(ends[slab]) < at {
+        slab += 1;
+    }
+    while slab > 0 && i64::from(ends[slab - 1]) >= at {
+        slab -= 1;
+    }
+    slab as u32
 }
 
 /// Last coordinate of slab `k` of so many between two coordinates.
@@ -36,4 +52,35 @@ pub const fn slab_plane(ends: &[i32], axis: usize, slab: u32) -> Plane {
 pub fn slabs_of(ends: &[i32], axis: usize, [a, b, c]: &[Point; 3]) -> [u32; 2] {
     let (low, high) = (a[axis].min(b[axis]).min(c[axis]), a[axis].max(b[axis]).max(c[axis]));
     [slab_of(ends, i64::from(low)), slab_of(ends, i64::from(high))]
+}
+
+/// In which of four cells about a corner of the grid, along two axes, a triangle has something that spans two slabs along
+/// both: bit 0 before both slabs' ends, bit 1 beyond the first's, bit 2 beyond the second's, bit 3 beyond both. The corner
+/// is at half of these coordinates, which are odd: no corner of a triangle has its.
+#[must_use]
+pub fn quadrants(triangle: &[Point; 3], axes: [usize; 2], corner: [i32; 2]) -> u32 {
+    let away = |k: usize, axis: usize| 2 * i64::from(triangle[k][axes[axis]]) - i64::from(corner[axis]);
+    let quadrant = |k: usize| usize::from(away(k, 0) > 0) | usize::from(away(k, 1) > 0) << 1;
+    let (mut touched, mut turns) = (0, [0; 3]);
+    for (k, turn) in turns.iter_mut().enumerate() {
+        let next = (k + 1) % 3;
+        let (x, y, next_x, next_y) = (away(k, 0), away(k, 1), away(next, 0), away(next, 1));
+        *turn = (x * next_y - y * next_x).signum();
+        touched |= 1 << quadrant(k);
+        if quadrant(k) ^ quadrant(next) == 3 {
+            touched |= passed(quadrant(k), *turn);
+        }
+    }
+    if turns == [1; 3] || turns == [-1; 3] { 0b1111 } else { touched }
+}
+
+/// The quadrant between two that are opposite, through which a side goes that turns this way about the corner.
+const fn passed(from: usize, turn: i64) -> u32 {
+    // Counter-clockwise: 0 (below left), 1 (right of it), 3, 2.
+    let next = [1, 3, 0, 2];
+    match turn {
+        1 => 1 << next[from],
+        -1 => 1 << (next[from] ^ 3),
+        _ => 0,
+    }
 }

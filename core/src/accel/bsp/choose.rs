@@ -1,7 +1,7 @@
 //! Which plane is best for a node: one that cuts few pieces, and has as many on one side as on the other.
 //!
 //! Pieces are looked at many at once, in single floats, four corners of each. That is enough to choose, as any choice gives
-//! the same order, and mostly to say on which side of the plane a piece is.
+//! the same order.
 #![deny(clippy::float_arithmetic)]
 
 use super::plane::Plane;
@@ -15,7 +15,7 @@ const CORNERS: usize = 4;
 /// Pieces that are looked at together.
 const LANES: usize = 8;
 /// A cut is as bad as so many pieces more on one side than on the other.
-const CUT_COST: u32 = 6;
+pub(super) const CUT_COST: u32 = 10;
 /// What is nearer to a plane than that, in units of the lattice, may be on the other side. Coordinates are below 2²⁰: those
 /// of corners are off by 2⁻⁴, a normal's by 2⁻²³ of the largest, the offset and the sums by about 2⁻² each, all together by less than that.
 const NEAR: f32 = 2.0;
@@ -31,8 +31,6 @@ pub enum Side {
     Behind,
     /// On both sides.
     Cut,
-    /// It takes a closer look to say.
-    Unsure,
 }
 
 impl Side {
@@ -53,14 +51,12 @@ impl Side {
 #[derive(Clone, Debug)]
 pub struct Jury {
     corners: [[[f32; JUDGES]; 3]; CORNERS],
-    /// Has a piece no more corners than those?
-    is_whole: [bool; JUDGES],
     count: usize,
 }
 
 impl Default for Jury {
     fn default() -> Self {
-        Self { corners: [[[0.0; JUDGES]; 3]; CORNERS], is_whole: [false; JUDGES], count: 0 }
+        Self { corners: [[[0.0; JUDGES]; 3]; CORNERS], count: 0 }
     }
 }
 
@@ -77,7 +73,6 @@ impl Jury {
                     corners[axis][self.count] = corner.at[axis] as f32;
                 }
             }
-            self.is_whole[self.count] = piece.len() <= CORNERS;
             self.count += 1;
         }
         // The last lanes are filled with the last piece, which does not count there.
@@ -124,33 +119,12 @@ impl Jury {
         }
         [low, high]
     }
-
-    /// On which side of a plane each piece is, if all were called.
-    #[inline(always)]
-    pub fn sides(&self, plane: &Plane, sides: &mut [Side; JUDGES]) {
-        let (normal, offset) = scaled(plane);
-        for first in (0..self.count).step_by(LANES) {
-            let [low, high] = self.between(first, normal, offset);
-            for l in 0..LANES {
-                let is_whole = self.is_whole[first + l];
-                sides[first + l] = if low[l] < neg(NEAR) && high[l] > NEAR {
-                    Side::Cut
-                } else if low[l] > NEAR && is_whole {
-                    Side::Before
-                } else if high[l] < neg(NEAR) && is_whole {
-                    Side::Behind
-                } else {
-                    Side::Unsure
-                };
-            }
-        }
-    }
 }
 
 /// A plane's normal and offset, such that values are about distances.
 #[inline(always)]
 fn scaled(plane: &Plane) -> ([f32; 3], f32) {
-    let [x, y, z] = plane.normal.map(|c| c as f32);
+    let [x, y, z] = [plane.normal[0] as f32, plane.normal[1] as f32, plane.normal[2] as f32];
     let length = max(max(abs(x), abs(y)), abs(z));
     let scale = recip(length);
     ([mul(x, scale), mul(y, scale), mul(z, scale)], mul(plane.offset as f32, scale))

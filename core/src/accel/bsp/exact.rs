@@ -1,5 +1,11 @@
 //! Signs of sums of products that are wider than a word.
 
+/// What something is along each axis, or at each corner. Unlike the standard library's `from_fn`, all of it is inlined.
+#[inline(always)]
+pub(super) fn each<T>(f: impl Fn(usize) -> T) -> [T; 3] {
+    [f(0), f(1), f(2)]
+}
+
 /// `a × b`.
 #[inline(always)]
 #[must_use]

@@ -2,6 +2,7 @@
 
 use libm::{exp2, floor, frexp};
 
+use super::exact::each;
 use crate::accel::bounds::Bounds;
 
 /// Bits of a coordinate: the largest mesh whose planes are still words (see [`super::plane`]).
@@ -39,22 +40,24 @@ impl Lattice {
     }
 
     /// A place in units of the lattice.
+    #[inline]
     #[must_use]
     pub fn units(&self, place: [f64; 3]) -> [f64; 3] {
-        core::array::from_fn(|axis| (place[axis] - self.low[axis]) / self.unit)
+        each(|axis| (place[axis] - self.low[axis]) / self.unit)
     }
 
     /// The place of units of the lattice.
     #[must_use]
     pub fn place(&self, units: [f64; 3]) -> [f64; 3] {
-        core::array::from_fn(|axis| self.low[axis] + units[axis] * self.unit)
+        each(|axis| self.low[axis] + units[axis] * self.unit)
     }
 
     /// The corner next to a place in the box.
     #[inline]
     #[must_use]
     pub fn snap(&self, place: [f32; 3]) -> Point {
-        self.units(place.map(f64::from)).map(|c| floor(c + 0.5) as i32)
+        // Nothing in the box is below 0, so that what is cut off is what `floor` takes off.
+        each(|axis| ((f64::from(place[axis]) - self.low[axis]) / self.unit + 0.5) as i32)
     }
 
     /// The eye next to a place; `None` if it is too far away.

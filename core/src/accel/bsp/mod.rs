@@ -11,6 +11,7 @@
 //! | sums of products that are wider than a word | `exact.rs` |
 //! | a convex piece of a triangle, and what a plane makes of it | `polygon.rs` |
 //! | which plane is best for a node | `choose.rs` |
+//! | which is best for few pieces, exactly | `table.rs` |
 //! | cells, and in which order an eye sees them | `cells.rs` |
 //! | nodes of a tree, and their pieces' places in the order | `rank.rs` |
 //! | whether the eye sees a piece along a ray | `sight.rs` |
@@ -28,3 +29,4 @@ pub mod polygon;
 pub mod rank;
 pub mod show;
 pub mod sight;
+pub mod table;

@@ -3,6 +3,7 @@
 //! With corners of 20 bits a normal has 42, and a corner's value is a determinant of three differences, so below
 //! (√3 · 2²⁰)³ < 2⁶³ (Hadamard 1893): words hold all of it.
 
+use super::exact::each;
 use super::lattice::Point;
 
 /// Points `p` with `normal · p = offset`.
@@ -89,8 +90,8 @@ impl Rough {
     #[inline]
     #[must_use]
     pub fn of(plane: &Plane) -> Self {
-        let normal = plane.normal.map(|c| c as f64);
-        let [x, y, z] = normal.map(f64::abs);
+        let normal = each(|axis| plane.normal[axis] as f64);
+        let [x, y, z] = each(|axis| normal[axis].abs());
         // Places are right to 2⁻³⁰ units (see `polygon.rs`), products and sums to as much of the sum of all components.
         let slack = (x + y + z) * (1.0 / (1 << 28) as f64);
         Self { normal, offset: plane.offset as f64, slack }
@@ -101,6 +102,12 @@ impl Rough {
     #[must_use]
     pub fn value(&self, [x, y, z]: [f64; 3]) -> f64 {
         self.normal[0] * x + self.normal[1] * y + self.normal[2] * z - self.offset
+    }
+
+    /// Its normal and offset.
+    #[inline(always)]
+    pub(super) const fn parts(&self) -> ([f64; 3], f64) {
+        (self.normal, self.offset)
     }
 
     /// What is nearer than this may be on the other side.

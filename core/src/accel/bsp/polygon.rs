@@ -4,7 +4,7 @@
 //! `w` with `values · w = 0`. So a piece is a ring of lines, and its corners, where two of them meet, are cross products:
 //! nothing is rounded, however often a piece is cut.
 
-use super::exact::{cross, dot_sign};
+use super::exact::{cross, dot_sign, each};
 use super::lattice::Point;
 use super::plane::{Plane, Rough};
 
@@ -22,6 +22,14 @@ pub struct Corner {
     pub cut: Cut,
     /// Which corner of the triangle it is; 3 if none.
     vertex: u32,
+}
+
+impl Corner {
+    /// Which corner of the triangle it is, if it is one.
+    #[inline(always)]
+    pub(super) const fn vertex(&self) -> Option<usize> {
+        if self.vertex < MADE { Some(self.vertex as usize) } else { None }
+    }
 }
 
 /// A plane that cuts, and which side of it is kept.
@@ -81,12 +89,14 @@ impl Cut {
 }
 
 /// All of a triangle.
+#[inline]
 #[must_use]
 pub fn whole(triangle: &[Point; 3]) -> [Corner; 3] {
-    core::array::from_fn(|k| {
+    each(|k| {
         let mut line = [0; 3];
         line[(k + 2) % 3] = 1; // the side to the next corner is where the last one weighs nothing
-        Corner { at: triangle[k].map(f64::from), line, cut: Cut::NONE, vertex: k as u32 }
+        let at = each(|axis| f64::from(triangle[k][axis]));
+        Corner { at, line, cut: Cut::NONE, vertex: k as u32 }
     })
 }
 
@@ -98,12 +108,39 @@ pub fn side(triangle: &[Point; 3], piece: &[Corner], k: usize, plane: &Plane, ro
     if let Some(sign) = rough.sign(rough.value(corner.at)) {
         return sign;
     }
-    if corner.vertex < MADE {
-        return plane.value(triangle[corner.vertex as usize]).signum() as i32;
+    if let Some(vertex) = corner.vertex() {
+        return plane.value(triangle[vertex]).signum() as i32;
     }
     let before = if k == 0 { piece.len() - 1 } else { k - 1 };
-    let weights = cross(piece[before].line, corner.line);
-    dot_sign(weights, plane.values(*triangle)) * sign_of(weights)
+    made_side([piece[before].line, corner.line], plane.values(*triangle))
+}
+
+/// On which side of a plane, whose values at a triangle's corners are given, two of the triangle's lines meet, on its edge
+/// or within.
+#[inline(always)]
+pub(super) fn made_side(lines: [[i64; 3]; 2], values: [i64; 3]) -> i32 {
+    let mut side = side_on_edge(lines[0], values);
+    if side.is_none() {
+        side = side_on_edge(lines[1], values);
+    }
+    if let Some(side) = side {
+        return side;
+    }
+    let weights = cross(lines[0], lines[1]);
+    dot_sign(weights, values) * sign_of(weights)
+}
+
+/// If the line is a side of the triangle, and both of its ends are on one side of a plane, or on the plane: so is what is
+/// between.
+#[inline(always)]
+const fn side_on_edge(line: [i64; 3], values: [i64; 3]) -> Option<i32> {
+    let [a, b] = match line {
+        [1, 0, 0] => [values[1].signum(), values[2].signum()],
+        [0, 1, 0] => [values[2].signum(), values[0].signum()],
+        [0, 0, 1] => [values[0].signum(), values[1].signum()],
+        _ => return None,
+    };
+    if a * b < 0 { None } else { Some((a + b).signum() as i32) }
 }
 
 /// The sign that weights of a place in the triangle have in common.
@@ -124,37 +161,40 @@ pub struct Knife<'a> {
     pub sides: &'a [i8],
 }
 
+/// Whose corner something is that a cut left, or whose side was cut there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The piece's corner `k`.
+    Corner(usize),
+    /// Made where the side from corner `k` crosses the plane.
+    Side(usize),
+}
+
 impl Knife<'_> {
-    /// Cuts a piece in two; tells the corners of what is before the plane, and of what is behind it.
+    /// Cuts a piece in two. Tells the corners of what is before the plane (half 0), and of what is behind it (half 1).
     #[inline]
-    pub fn split(
-        &self,
-        piece: &[Corner],
-        cutter: Cutter,
-        mut before: impl FnMut(Corner),
-        mut behind: impl FnMut(Corner),
-    ) {
-        let (line, back_line) = (self.line, self.line.map(|value| -value));
-        let (cut, back_cut) = (Cut::new(cutter, false), Cut::new(cutter, true));
+    pub fn split(&self, piece: &[Corner], cutter: Cutter, mut tell: impl FnMut(usize, Corner, Origin)) {
+        let back = each(|k| -self.line[k]);
+        let edge = [(self.line, Cut::new(cutter, false)), (back, Cut::new(cutter, true))];
         for (k, corner) in piece.iter().enumerate() {
             let next = if k + 1 == piece.len() { 0 } else { k + 1 };
             let (here, there) = (self.sides[k], self.sides[next]);
-            let crosses = (here > 0 && there < 0) || (here < 0 && there > 0);
-            let end = if crosses {
-                Corner { at: meet(self.triangle, corner.line, line), vertex: MADE, ..*corner }
+            let (end, from) = if here * there < 0 {
+                let at = meet(self.triangle, corner.line, self.line);
+                (Corner { at, vertex: MADE, ..*corner }, Origin::Side(k))
             } else {
-                piece[next]
+                (piece[next], Origin::Corner(next))
             };
-            if here > 0 || there > 0 {
-                before(if here < 0 { end } else { *corner });
-                if there <= 0 {
-                    before(Corner { line, cut, ..end });
+            for (half, way) in [(0, 1), (1, -1)] {
+                let (here, there) = (here * way, there * way);
+                if here > 0 || (here == 0 && there > 0) {
+                    tell(half, *corner, Origin::Corner(k));
+                } else if there > 0 {
+                    tell(half, end, from);
                 }
-            }
-            if here < 0 || there < 0 {
-                behind(if here > 0 { end } else { *corner });
-                if there >= 0 {
-                    behind(Corner { line: back_line, cut: back_cut, ..end });
+                if here > 0 && there <= 0 {
+                    let (line, cut) = edge[half];
+                    tell(half, Corner { line, cut, ..end }, from);
                 }
             }
         }
@@ -163,10 +203,11 @@ impl Knife<'_> {
 
 /// Where two lines meet, which is in the triangle. All weights have one sign, so nothing cancels.
 fn meet(triangle: &[Point; 3], a: [i64; 3], b: [i64; 3]) -> [f64; 3] {
-    let weights = cross(a, b).map(float);
+    let weights = cross(a, b);
+    let weights = each(|k| float(weights[k]));
     let all = weights[0] + weights[1] + weights[2];
-    core::array::from_fn(|axis| {
-        let [a, b, c] = triangle.map(|corner| f64::from(corner[axis]));
+    each(|axis| {
+        let [a, b, c] = each(|k| f64::from(triangle[k][axis]));
         (a * weights[0] + b * weights[1] + c * weights[2]) / all
     })
 }

@@ -1,0 +1,345 @@
+//! The rest of a tree once few parts are left: the sides of all of their corners are found at once, then bits are counted.
+
+#![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
+
+use micropoly_core::accel::bsp::lattice::Point;
+use micropoly_core::accel::bsp::plane::{Plane, Rough};
+use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, Origin, side, whole};
+use micropoly_core::accel::bsp::rank::BspNode;
+use micropoly_core::accel::bsp::table::{Division, FEW, Planes, SLOTS, Set, Sides, Table};
+use multiversion::multiversion;
+
+use super::cut::Part;
+use super::shared::{CORNERS, Shared};
+use super::tree::{Gardener, Waiting};
+
+/// Parts that are looked at together, and what is known about them.
+pub(super) struct Few {
+    table: Table,
+    parts: [Part; SLOTS],
+    /// The plane of each part's triangle: the first slots are those of their own planes. And the triangles of all planes.
+    planes: [u8; SLOTS],
+    cutters: [u32; FEW],
+    /// Slots without a part, behind those.
+    free: Set,
+    /// Corners of whole parts, their sides, and which are those of each plane's triangle.
+    shared: Shared,
+    shared_sides: [Sides; CORNERS],
+    corners: [[u8; 3]; FEW],
+    /// Sides of the corners that the parts have in the list of all.
+    sides: Vec<Sides>,
+    /// The part that is being cut, its corners' sides of the plane that cuts it, and what is before and behind that.
+    piece: Ring,
+    signs: Vec<i8>,
+    halves: [Ring; 2],
+    /// Nodes that are not yet divided, and whose back they are.
+    tasks: Vec<(Set, Option<usize>)>,
+}
+
+/// Corners of a part, and their sides.
+#[derive(Default)]
+struct Ring {
+    corners: Vec<Corner>,
+    sides: Vec<Sides>,
+}
+
+impl Default for Few {
+    fn default() -> Self {
+        let (sides, piece, signs, halves, tasks) = Default::default();
+        let none = Part { triangle: 0, first: 0, count: 0, is_whole: false, slabs: [Cut::NONE; 3] };
+        Self {
+            table: Table::default(),
+            parts: [none; SLOTS],
+            planes: [0; SLOTS],
+            cutters: [0; FEW],
+            free: 0,
+            shared: Shared::default(),
+            shared_sides: [Sides::default(); CORNERS],
+            corners: [[0; 3]; FEW],
+            sides,
+            piece,
+            signs,
+            halves,
+            tasks,
+        }
+    }
+}
+
+/// On which sides of all planes some corners of triangles are, exactly or but for a tolerance.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl+avx512dq", "x86_64+avx2"))]
+fn note_shared(planes: &Planes, points: &[Point], is_exact: bool, sides: &mut [Sides]) {
+    for (point, sides) in points.iter().zip(sides) {
+        *sides = if is_exact {
+            planes.sides_of_vertex(point)
+        } else {
+            planes.far_sides([f64::from(point[0]), f64::from(point[1]), f64::from(point[2])])
+        };
+    }
+}
+
+/// Notes on which sides of all planes the corners of some parts are, each in the slot of its number.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl+avx512dq", "x86_64+avx2"))]
+fn note(
+    table: &mut Table,
+    parts: &[Part],
+    triangles: &[[Point; 3]],
+    corners: &[Corner],
+    is_exact: bool,
+    sides: &mut [Sides],
+    wholes: &[Sides],
+) {
+    for (slot, part) in parts.iter().enumerate() {
+        let asked = table.planes.all() & !(1 << slot);
+        if part.is_whole {
+            table.put(slot, wholes[slot].only(asked));
+            continue;
+        }
+        let (triangle, piece) = (&triangles[part.triangle as usize], part.corners(corners));
+        let mut all = Sides::default();
+        for k in 0..piece.len() {
+            let found = if is_exact {
+                table.planes.sides(triangle, piece, k, asked)
+            } else {
+                table.planes.far_sides(piece[k].at)
+            };
+            sides[part.first as usize + k] = found;
+            all = all.and(found);
+        }
+        table.put(slot, all.only(asked));
+    }
+}
+
+/// As core's `sides_of_made`, or `far_sides` if it need not be exact.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl+avx512dq", "x86_64+avx2"))]
+fn sides_of_made(
+    planes: &Planes,
+    triangle: &[Point; 3],
+    at: [f64; 3],
+    lines: [[i64; 3]; 2],
+    asked: u64,
+    is_exact: bool,
+) -> Sides {
+    if is_exact { planes.sides_of_made(triangle, at, lines, asked) } else { planes.far_sides(at) }
+}
+
+/// As core's `put`.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl+avx512dq", "x86_64+avx2"))]
+fn put(table: &mut Table, slot: usize, sides: Sides) {
+    table.put(slot, sides);
+}
+
+/// As core's `best`.
+#[multiversion(targets("x86_64+avx2+popcnt+bmi1+bmi2+lzcnt"))]
+fn best(table: &Table, set: Set, planes: u64) -> usize {
+    table.best(set, planes)
+}
+
+/// The slots of a set.
+fn slots(mut set: Set) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let slot = set.trailing_zeros();
+        set &= set.checked_sub(1)?;
+        Some(slot as usize)
+    })
+}
+
+impl Few {
+    /// The planes of some parts.
+    fn planes_of(&self, set: Set) -> u64 {
+        slots(set >> FEW).fold(set as u64, |planes, slot| planes | 1 << self.planes[FEW + slot])
+    }
+
+    /// Parts, lower triangles first.
+    fn sorted(&self, set: Set) -> Vec<Part> {
+        let mut parts: Vec<Part> = slots(set).map(|slot| self.parts[slot]).collect();
+        parts.sort_by_key(|part| part.triangle);
+        parts
+    }
+
+    /// Takes out the corners of a part that will be cut, and their sides.
+    fn open(&mut self, slot: usize, triangle: &[Point; 3], corners: &[Corner]) {
+        let part = self.parts[slot];
+        let Ring { corners: own, sides } = &mut self.piece;
+        own.clear();
+        sides.clear();
+        if part.is_whole {
+            own.extend_from_slice(&whole(triangle));
+            sides.extend(self.corners[slot].iter().map(|number| self.shared_sides[usize::from(*number)]));
+        } else {
+            own.extend_from_slice(part.corners(corners));
+            sides.extend_from_slice(&self.sides[part.first as usize..][..part.count as usize]);
+        }
+    }
+
+    /// Notes the corners' sides of the plane that cuts them.
+    fn sign(&mut self, triangle: &[Point; 3], plane: usize, exact: &Plane, is_exact: bool) {
+        let Ring { corners, sides } = &self.piece;
+        self.signs.clear();
+        if is_exact {
+            self.signs.extend(sides.iter().map(|sides| sides.of(plane)));
+        } else {
+            let rough = Rough::of(exact);
+            let sides = (0..corners.len()).map(|k| side(triangle, corners, k, exact, &rough) as i8);
+            self.signs.extend(sides);
+        }
+    }
+
+    /// Cuts what was taken out; the sides of new corners are only found for planes that are asked for.
+    fn split(&mut self, triangle: &[Point; 3], cutter: u32, plane: &Plane, asked: u64, is_exact: bool) {
+        let Self { table, piece, signs, halves, .. } = self;
+        for half in &mut *halves {
+            half.corners.clear();
+            half.sides.clear();
+        }
+        let knife = Knife { triangle, line: plane.values(*triangle), sides: signs };
+        // Both halves have each new corner, one after the other.
+        let mut last = (usize::MAX, Sides::default());
+        knife.split(&piece.corners, Cutter::Triangle(cutter), |half, corner, origin| {
+            let sides = match origin {
+                Origin::Corner(k) => piece.sides[k],
+                Origin::Side(k) if k == last.0 => last.1,
+                Origin::Side(k) => {
+                    let lines = [piece.corners[k].line, knife.line];
+                    last = (k, sides_of_made(&table.planes, triangle, corner.at, lines, asked, is_exact));
+                    last.1
+                }
+            };
+            halves[half].corners.push(corner);
+            halves[half].sides.push(sides);
+        });
+    }
+}
+
+impl Gardener<'_> {
+    /// Grows the tree of a few parts. If they are cut into more than there is room for, those that are left wait.
+    pub(super) fn grow_few(
+        &mut self,
+        parts: &[Part],
+        parent: Option<usize>,
+        waiting: &mut Vec<Part>,
+        tasks: &mut Vec<Waiting>,
+    ) {
+        self.lay(parts);
+        let all = (1 << parts.len()) - 1;
+        self.few.free = Set::MAX << FEW;
+        self.few.tasks.clear();
+        self.few.tasks.push((all, parent));
+        while let Some((set, parent)) = self.few.tasks.pop() {
+            if set.is_power_of_two() {
+                self.end(set, parent);
+            } else if !self.divide_few(set, parent) {
+                self.few.tasks.push((set, parent));
+                self.put_off(waiting, tasks);
+            }
+        }
+    }
+
+    /// Finds out on which sides of each other's planes they are.
+    fn lay(&mut self, parts: &[Part]) {
+        let Few { table, parts: slots, planes, cutters, shared, shared_sides, corners, sides, .. } =
+            &mut self.few;
+        let (tolerance, is_exact) = (self.rules.tolerance, self.rules.tolerance == 0.0);
+        // Quicker than to look them up.
+        let plane = |part: &Part| Plane::of(self.triangles[part.triangle as usize]);
+        table.planes.lay(parts.iter().map(plane), tolerance);
+        slots[..parts.len()].copy_from_slice(parts);
+        shared.clear();
+        for (k, part) in parts.iter().enumerate() {
+            (planes[k], cutters[k]) = (k as u8, part.triangle);
+            if part.is_whole {
+                let [a, b, c] = self.triangles[part.triangle as usize];
+                corners[k] = [shared.number(a), shared.number(b), shared.number(c)];
+            }
+        }
+        note_shared(&table.planes, &shared.points, is_exact, shared_sides);
+        let mut wholes = [Sides::default(); FEW];
+        for (whole, [a, b, c]) in wholes.iter_mut().zip(&corners[..parts.len()]) {
+            let [a, b, c] =
+                [shared_sides[usize::from(*a)], shared_sides[usize::from(*b)], shared_sides[usize::from(*c)]];
+            *whole = a.and(b).and(c);
+        }
+        sides.resize(self.corners.len(), Sides::default());
+        note(table, parts, self.triangles, &self.corners, is_exact, sides, &wholes);
+    }
+
+    /// A part alone.
+    fn end(&mut self, set: Set, parent: Option<usize>) {
+        let part = self.few.parts[set.trailing_zeros() as usize];
+        self.few.free |= set & Set::MAX << FEW;
+        self.keep(part);
+        self.node(BspNode { triangle: part.triangle, own: 1, ..BspNode::default() }, parent);
+    }
+
+    /// Makes a node of some parts, if there is room for what is cut: at first there is.
+    fn divide_few(&mut self, set: Set, parent: Option<usize>) -> bool {
+        let few = &mut self.few;
+        let planes = few.planes_of(set);
+        let tried = if self.rules.candidates == 1 { planes & planes.wrapping_neg() } else { planes };
+        let plane = best(&few.table, set, tried);
+        let Division { own, mut before, mut behind, cut } = few.table.divide(set, plane);
+        few.free |= own & Set::MAX << FEW;
+        if cut.count_ones() > few.free.count_ones() {
+            few.free &= !own;
+            return false;
+        }
+        self.keep_few(own);
+        for slot in slots(cut) {
+            let other = self.few.free.trailing_zeros() as usize;
+            self.few.free &= !(1 << other);
+            self.split_few([slot, other], plane, planes);
+            before |= 1 << slot;
+            behind |= 1 << other;
+        }
+        let node = self.trees.nodes.len();
+        let (own, front, back) = (own.count_ones(), before.count_ones(), behind.count_ones());
+        let triangle = self.few.cutters[plane];
+        self.node(BspNode { triangle, own, front, back, to_back: 0 }, parent);
+        // What is before the plane comes next.
+        for (set, parent) in [(behind, Some(node)), (before, None)] {
+            if set != 0 {
+                self.few.tasks.push((set, parent));
+            }
+        }
+        true
+    }
+
+    /// Parts in one plane become pieces, lower triangles first.
+    fn keep_few(&mut self, own: Set) {
+        if own.is_power_of_two() {
+            return self.keep(self.few.parts[own.trailing_zeros() as usize]);
+        }
+        for part in self.few.sorted(own) {
+            self.keep(part);
+        }
+    }
+
+    /// Cuts the part in a slot: what is behind the plane goes to another.
+    fn split_few(&mut self, [slot, other]: [usize; 2], plane: usize, planes: u64) {
+        let (few, is_exact) = (&mut self.few, self.rules.tolerance == 0.0);
+        let (part, cutter) = (few.parts[slot], few.cutters[plane]);
+        let triangle = &self.triangles[part.triangle as usize];
+        let exact = few.table.planes.plane(plane);
+        // What is made lies in both planes.
+        let asked = planes & !(1 << plane | 1 << few.planes[slot]);
+        few.open(slot, triangle, &self.corners);
+        few.sign(triangle, plane, &exact, is_exact);
+        few.split(triangle, cutter, &exact, asked, is_exact);
+        few.planes[other] = few.planes[slot];
+        for (slot, half) in [slot, other].into_iter().zip(&few.halves) {
+            let (first, count) = (self.corners.len() as u32, half.corners.len() as u32);
+            few.parts[slot] = Part { first, count, is_whole: false, ..part };
+            self.corners.extend_from_slice(&half.corners);
+            few.sides.extend_from_slice(&half.sides);
+            let all = half.sides.iter().fold(Sides::default(), |all, sides| all.and(*sides));
+            put(&mut few.table, slot, all.only(planes & !(1 << few.planes[slot])));
+        }
+    }
+
+    /// What is left waits for another table.
+    fn put_off(&mut self, waiting: &mut Vec<Part>, tasks: &mut Vec<Waiting>) {
+        for (set, parent) in std::mem::take(&mut self.few.tasks) {
+            tasks.push(Waiting { first: waiting.len(), parent });
+            waiting.extend(self.few.sorted(set));
+        }
+    }
+}
