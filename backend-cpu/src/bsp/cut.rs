@@ -17,14 +17,17 @@ const TRIANGLES_AT_ONCE: usize = 2048;
 pub(super) struct Part {
     pub(super) triangle: u32,
     pub(super) first: u32,
-    /// So many corners; of a whole triangle's there may be none in the list yet.
+    /// So many corners; those of a whole triangle are not in the list.
     pub(super) count: u32,
-    pub(super) is_whole: bool,
     /// Cuts by slabs that its corners do not have.
     pub(super) slabs: [Cut; 3],
 }
 
 impl Part {
+    pub(super) const fn is_whole(self) -> bool {
+        self.count == 0
+    }
+
     pub(super) fn corners(self, list: &[Corner]) -> &[Corner] {
         &list[self.first as usize..][..self.count as usize]
     }
@@ -171,7 +174,7 @@ impl<'a> Slicer<'a> {
             }
         }
         self.share.cells.push(self.number(cell));
-        self.share.parts.push(Part { triangle, first: 0, count: 0, is_whole: true, slabs });
+        self.share.parts.push(Part { triangle, first: 0, count: 0, slabs });
     }
 
     fn number(&self, [x, y, z]: [u32; 3]) -> u32 {
@@ -246,7 +249,7 @@ impl<'a> Slicer<'a> {
         self.share.cells.push(self.number(cell));
         let Share { parts, corners, .. } = &mut self.share;
         let (first, count) = (corners.len() as u32, piece.len() as u32);
-        parts.push(Part { triangle, first, count, is_whole: false, slabs: [Cut::NONE; 3] });
+        parts.push(Part { triangle, first, count, slabs: [Cut::NONE; 3] });
         corners.extend_from_slice(piece);
     }
 }

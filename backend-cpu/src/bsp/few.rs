@@ -46,7 +46,7 @@ struct Ring {
 impl Default for Few {
     fn default() -> Self {
         let (sides, piece, signs, halves, tasks) = Default::default();
-        let none = Part { triangle: 0, first: 0, count: 0, is_whole: false, slabs: [Cut::NONE; 3] };
+        let none = Part { triangle: 0, first: 0, count: 0, slabs: [Cut::NONE; 3] };
         Self {
             table: Table::default(),
             parts: [none; SLOTS],
@@ -90,7 +90,7 @@ fn note(
 ) {
     for (slot, part) in parts.iter().enumerate() {
         let asked = table.planes.all() & !(1 << slot);
-        if part.is_whole {
+        if part.is_whole() {
             table.put(slot, wholes[slot].only(asked));
             continue;
         }
@@ -162,7 +162,7 @@ impl Few {
         let Ring { corners: own, sides } = &mut self.piece;
         own.clear();
         sides.clear();
-        if part.is_whole {
+        if part.is_whole() {
             own.extend_from_slice(&whole(triangle));
             sides.extend(self.corners[slot].iter().map(|number| self.shared_sides[usize::from(*number)]));
         } else {
@@ -246,7 +246,7 @@ impl Gardener<'_> {
         shared.clear();
         for (k, part) in parts.iter().enumerate() {
             (planes[k], cutters[k]) = (k as u8, part.triangle);
-            if part.is_whole {
+            if part.is_whole() {
                 let [a, b, c] = self.triangles[part.triangle as usize];
                 corners[k] = [shared.number(a), shared.number(b), shared.number(c)];
             }
@@ -274,8 +274,10 @@ impl Gardener<'_> {
     fn divide_few(&mut self, set: Set, parent: Option<usize>) -> bool {
         let few = &mut self.few;
         let planes = few.planes_of(set);
-        let tried = if self.rules.candidates == 1 { planes & planes.wrapping_neg() } else { planes };
-        let plane = best(&few.table, set, tried);
+        let first = planes.trailing_zeros() as usize;
+        let is_good =
+            self.rules.candidates == 1 || (set.count_ones() == 2 && few.table.divide(set, first).cut == 0);
+        let plane = if is_good { first } else { best(&few.table, set, planes) };
         let Division { own, mut before, mut behind, cut } = few.table.divide(set, plane);
         few.free |= own & Set::MAX << FEW;
         if cut.count_ones() > few.free.count_ones() {
@@ -327,7 +329,7 @@ impl Gardener<'_> {
         few.planes[other] = few.planes[slot];
         for (slot, half) in [slot, other].into_iter().zip(&few.halves) {
             let (first, count) = (self.corners.len() as u32, half.corners.len() as u32);
-            few.parts[slot] = Part { first, count, is_whole: false, ..part };
+            few.parts[slot] = Part { first, count, ..part };
             self.corners.extend_from_slice(&half.corners);
             few.sides.extend_from_slice(&half.sides);
             let all = half.sides.iter().fold(Sides::default(), |all, sides| all.and(*sides));

@@ -125,13 +125,15 @@ fn build(triangles: &[[[f32; 3]; 3]], options: &BspOptions) -> Result<BspGrid, B
     if triangles.len() as u64 > u64::from(MOST_TRIANGLES) {
         return Err(BspError::Triangles);
     }
-    if let Some(triangle) = triangles.iter().position(|t| !t.as_flattened().iter().all(|c| c.is_finite())) {
+    let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|c| c.is_finite());
+    if let Some(triangle) = triangles.par_iter().position_first(|triangle| !is_finite(triangle)) {
         return Err(BspError::Corner { triangle });
     }
     let bounds = triangles.par_iter().map(|t| Bounds::of(t)).reduce(|| Bounds::NONE, Bounds::union);
     let bounds = if triangles.is_empty() { Bounds::of(&[[0.0; 3]]) } else { bounds };
     let lattice = Lattice::new(&bounds);
-    let corners: Vec<[Point; 3]> = triangles.par_iter().map(|t| t.map(|p| lattice.snap(p))).collect();
+    let snapped = |[a, b, c]: &[[f32; 3]; 3]| [lattice.snap(*a), lattice.snap(*b), lattice.snap(*c)];
+    let corners: Vec<[Point; 3]> = triangles.par_iter().map(snapped).collect();
     let planes: Vec<Plane> = corners.par_iter().map(|triangle| Plane::of(*triangle)).collect();
     let grid = options.grid.unwrap_or_else(|| chosen_grid(triangles.len())).clamp(1, MOST_SLABS);
     let (low, high) = (lattice.snap(bounds.low), lattice.snap(bounds.high));

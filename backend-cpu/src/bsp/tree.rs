@@ -2,7 +2,7 @@
 
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
-use micropoly_core::accel::bsp::choose::{Jury, Side};
+use micropoly_core::accel::bsp::choose::{CORNERS, Jury, Side};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
 use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side, whole};
@@ -122,6 +122,34 @@ fn best(jury: &Jury, planes: &[Plane], candidates: impl Iterator<Item = u32>) ->
     best.1
 }
 
+/// Some corners of a part, its last one again if it has fewer.
+#[inline(always)]
+fn some_corners(part: Part, triangles: &[[Point; 3]], corners: &[Corner]) -> [[f32; 3]; CORNERS] {
+    let mut some = [[0.0; 3]; CORNERS];
+    let (triangle, piece) = (&triangles[part.triangle as usize], part.corners(corners));
+    for (k, some) in some.iter_mut().enumerate() {
+        for (axis, some) in some.iter_mut().enumerate() {
+            *some = if part.is_whole() {
+                triangle[k.min(2)][axis] as f32
+            } else {
+                piece[k.min(piece.len() - 1)].at[axis] as f32
+            };
+        }
+    }
+    some
+}
+
+/// On which side of a plane some corners are, but for those that are near.
+fn far_side(plane: &Rough, near: f64, corners: impl Iterator<Item = [f64; 3]>) -> Side {
+    let (mut before, mut behind) = (false, false);
+    for corner in corners {
+        let value = plane.value(corner);
+        before |= value > near;
+        behind |= value < -near;
+    }
+    Side::of(before, behind)
+}
+
 /// Parts on one side of a node, at the end of the list of those that wait.
 pub(super) struct Waiting {
     pub(super) first: usize,
@@ -186,9 +214,6 @@ impl<'a> Gardener<'a> {
                 self.grow_few(&now, parent, &mut waiting, &mut tasks);
                 continue;
             }
-            for part in now.iter_mut().filter(|part| part.count == 0) {
-                self.give_corners(part);
-            }
             let node = self.trees.nodes.len();
             self.divide(&now, parent, &mut before, &mut behind);
             // What is before the plane comes next.
@@ -201,12 +226,6 @@ impl<'a> Gardener<'a> {
         }
         self.count(root);
         Ok(())
-    }
-
-    /// Gives a whole part the corners of its triangle.
-    fn give_corners(&mut self, part: &mut Part) {
-        *part = Part { first: self.corners.len() as u32, count: 3, ..*part };
-        self.corners.extend(whole(&self.triangles[part.triangle as usize]));
     }
 
     /// Adds a node, which may be the back of another.
@@ -231,7 +250,7 @@ impl<'a> Gardener<'a> {
         let rough = Rough::of(&plane);
         let mut own = 0;
         for part in parts {
-            match self.side_of(*part, triangle, &rough) {
+            match self.side_of(*part, triangle, &plane, &rough) {
                 Side::InPlane => {
                     self.keep(*part);
                     own += 1;
@@ -256,25 +275,29 @@ impl<'a> Gardener<'a> {
             return parts[0].triangle;
         }
         let candidates = (0..tried).map(|k| parts[k * parts.len() / tried].triangle);
-        self.jury.call(parts.iter().map(|part| part.corners(&self.corners)));
+        let (triangles, corners) = (self.triangles, &self.corners);
+        self.jury.call(parts.len(), |k| some_corners(parts[k], triangles, corners));
         best(&self.jury, self.planes, candidates)
     }
 
     /// On which side of a triangle's plane a part is.
-    fn side_of(&self, part: Part, triangle: u32, rough: &Rough) -> Side {
+    fn side_of(&self, part: Part, triangle: u32, plane: &Plane, rough: &Rough) -> Side {
         if part.triangle == triangle {
             return Side::InPlane;
         }
-        let piece = part.corners(&self.corners);
+        let (corners, piece) = (&self.triangles[part.triangle as usize], part.corners(&self.corners));
         if self.rules.tolerance > 0.0 {
             let near = rough.value_at(self.rules.tolerance).max(rough.slack());
-            let (before, behind) = piece.iter().fold((false, false), |(before, behind), corner| {
-                let value = rough.value(corner.at);
-                (before | (value > near), behind | (value < -near))
-            });
-            return Side::of(before, behind);
+            return if part.is_whole() {
+                far_side(rough, near, corners.iter().map(|corner| corner.map(f64::from)))
+            } else {
+                far_side(rough, near, piece.iter().map(|corner| corner.at))
+            };
         }
-        let (corners, plane) = (&self.triangles[part.triangle as usize], &self.planes[triangle as usize]);
+        if part.is_whole() {
+            let [a, b, c] = plane.values(*corners);
+            return Side::of((a > 0) | (b > 0) | (c > 0), (a < 0) | (b < 0) | (c < 0));
+        }
         let (mut before, mut behind) = (false, false);
         for k in 0..piece.len() {
             let side = side(corners, piece, k, plane, rough);
@@ -291,7 +314,11 @@ impl<'a> Gardener<'a> {
     fn split(&mut self, part: Part, plane: &Plane, rough: &Rough, cutter: Cutter) -> [Part; 2] {
         let triangle = &self.triangles[part.triangle as usize];
         self.piece.clear();
-        self.piece.extend_from_slice(part.corners(&self.corners));
+        if part.is_whole() {
+            self.piece.extend(whole(triangle));
+        } else {
+            self.piece.extend_from_slice(part.corners(&self.corners));
+        }
         self.sides.clear();
         self.sides.extend((0..self.piece.len()).map(|k| side(triangle, &self.piece, k, plane, rough) as i8));
         let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
@@ -302,7 +329,6 @@ impl<'a> Gardener<'a> {
         let middle = corners.len() as u32;
         corners.append(behind);
         let end = corners.len() as u32;
-        let part = Part { is_whole: false, ..part };
         [Part { first, count: middle - first, ..part }, Part { first: middle, count: end - middle, ..part }]
     }
 

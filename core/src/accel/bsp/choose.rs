@@ -5,13 +5,12 @@
 #![deny(clippy::float_arithmetic)]
 
 use super::plane::Plane;
-use super::polygon::Corner;
 use crate::num::{abs, add, max, min, mul, neg, recip, sub};
 
 /// Planes are judged by so many pieces at most.
 pub const JUDGES: usize = 64;
 /// Corners of a piece that are looked at.
-const CORNERS: usize = 4;
+pub const CORNERS: usize = 4;
 /// Pieces that are looked at together.
 const LANES: usize = 8;
 /// A cut is as bad as so many pieces more on one side than on the other.
@@ -61,16 +60,16 @@ impl Default for Jury {
 }
 
 impl Jury {
-    /// Calls some pieces, of which there may be any number: about [`JUDGES`] of them, evenly spread.
+    /// Calls some of so many pieces, whatever their number: about [`JUDGES`] of them, evenly spread; `corners` gives some
+    /// of a piece's corners.
     #[inline(always)]
-    pub fn call<'a>(&mut self, pieces: impl ExactSizeIterator<Item = &'a [Corner]>) {
-        let step = pieces.len().div_ceil(JUDGES).max(1);
+    pub fn call(&mut self, pieces: usize, corners: impl Fn(usize) -> [[f32; 3]; CORNERS]) {
+        let step = pieces.div_ceil(JUDGES).max(1);
         self.count = 0;
-        for piece in pieces.step_by(step) {
-            for (k, corners) in self.corners.iter_mut().enumerate() {
-                let corner = piece[k.min(piece.len() - 1)];
+        for piece in (0..pieces).step_by(step) {
+            for (corners, corner) in self.corners.iter_mut().zip(corners(piece)) {
                 for axis in 0..3 {
-                    corners[axis][self.count] = corner.at[axis] as f32;
+                    corners[axis][self.count] = corner[axis];
                 }
             }
             self.count += 1;

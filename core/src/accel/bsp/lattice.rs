@@ -19,6 +19,8 @@ pub type Point = [i32; 3];
 pub struct Lattice {
     low: [f64; 3],
     unit: f64,
+    /// Exact, too.
+    units_per_length: f64,
 }
 
 impl Lattice {
@@ -30,7 +32,11 @@ impl Lattice {
         // side < 2^exponent; two units are for rounding.
         let (_, exponent) = frexp(if largest > 0.0 { largest * (1.0 + 1.0e-5) } else { 1.0 });
         let unit = exp2(f64::from(exponent - LATTICE_BITS as i32));
-        Self { low: bounds.low.map(|low| floor(f64::from(low) / unit) * unit), unit }
+        Self {
+            low: bounds.low.map(|low| floor(f64::from(low) / unit) * unit),
+            unit,
+            units_per_length: 1.0 / unit,
+        }
     }
 
     /// Length of a unit.
@@ -43,7 +49,7 @@ impl Lattice {
     #[inline]
     #[must_use]
     pub fn units(&self, place: [f64; 3]) -> [f64; 3] {
-        each(|axis| (place[axis] - self.low[axis]) / self.unit)
+        each(|axis| (place[axis] - self.low[axis]) * self.units_per_length)
     }
 
     /// The place of units of the lattice.
@@ -57,7 +63,7 @@ impl Lattice {
     #[must_use]
     pub fn snap(&self, place: [f32; 3]) -> Point {
         // Nothing in the box is below 0, so that what is cut off is what `floor` takes off.
-        each(|axis| ((f64::from(place[axis]) - self.low[axis]) / self.unit + 0.5) as i32)
+        each(|axis| ((f64::from(place[axis]) - self.low[axis]) * self.units_per_length + 0.5) as i32)
     }
 
     /// The eye next to a place; `None` if it is too far away.
