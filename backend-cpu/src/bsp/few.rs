@@ -275,6 +275,7 @@ impl Gardener<'_> {
         let few = &mut self.few;
         let planes = few.planes_of(set);
         let first = planes.trailing_zeros() as usize;
+        // Of two, a plane that does not cut the other is as good as any.
         let is_good =
             self.rules.candidates == 1 || (set.count_ones() == 2 && few.table.divide(set, first).cut == 0);
         let plane = if is_good { first } else { best(&few.table, set, planes) };
