@@ -13,7 +13,7 @@ use crate::buffer::CpuBuffer;
 use crate::draw::{Lists, Steps};
 use crate::sort_last::{self, Keys};
 use crate::tessellate::{self, Evaluate, Levels, OwnSteps};
-use crate::{draw, local, pixels, stages, trees};
+use crate::{bsp, draw, local, pixels, stages, trees};
 
 /// What can go wrong on the CPU.
 #[derive(Debug)]

@@ -18,14 +18,16 @@ void stage_bsp_rank(__global const BspFrame *bsp_frame, __global const BspNode *
                     __global const uint *first_pieces, __global const uint *is_before, __global const uint *counts,
                     __global uint *places, __global uint *order) {
     const uint cell = get_global_id(0);
-    if (cell >= bsp_frame->cells || first_nodes[cell] == first_nodes[cell + 1u]) {
+    if (cell >= bsp_frame->cells) {
         return;
     }
-    const uint end = first_nodes[cell + 1u];
+    const uint first = first_nodes[cell], end = first_nodes[cell + 1u];
+    if (first < end) {
+        places[first] = 0u;
+    }
     __global uint *own_order = order + counts[place_of(bsp_frame, cell)];
     uint piece = first_pieces[cell];
-    places[first_nodes[cell]] = 0u;
-    for (uint index = first_nodes[cell]; index < end; index++) {
+    for (uint index = first; index < end; index++) {
         __global const BspNode *node = bsp_nodes + index;
         const uint own = place_among(node, is_before[node->triangle] != 0u, places + index);
         // Of those in one plane, wherever the eye is, the lowest triangle is the nearest.

@@ -14,21 +14,21 @@
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     ZERO = bsp_frame.zero;
     let cell = item_index(group, lane);
-    if cell >= bsp_frame.cells || first_nodes[cell] == first_nodes[cell + 1u] {
-        return;
-    }
-    let start = counts[place_of(cell)];
-    rank(cell, start);
-    if loops_were_cut() {
-        order[start] = UNFINISHED;
+    if cell < bsp_frame.cells {
+        let start = counts[place_of(cell)];
+        rank(first_nodes[cell], first_nodes[cell + 1u], first_pieces[cell], start);
+        if loops_were_cut() {
+            order[start] = UNFINISHED;
+        }
     }
 }
 
-fn rank(cell: u32, start: u32) {
-    let end = first_nodes[cell + 1u];
-    var piece = first_pieces[cell];
-    places[first_nodes[cell]] = 0u;
-    for (var index = first_nodes[cell]; index < end; index++) {
+fn rank(first: u32, end: u32, first_piece: u32, start: u32) {
+    if first < end {
+        places[first] = 0u;
+    }
+    var piece = first_piece;
+    for (var index = first; index < end; index++) {
         let node = bsp_nodes[index];
         let own = place_among(index, node);
         // Of those in one plane, wherever the eye is, the lowest triangle is the nearest.
