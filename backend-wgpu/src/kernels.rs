@@ -527,8 +527,8 @@ impl Which {
                 CANDIDATES, NEAR, ROUNDS, LOOPS, TILES,
             ],
             Self::Tiles(Kind::General) => &[
-                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, WIDE, TRIANGLE, CLIP, SAMPLE,
-                CANDIDATES, GENERAL, ROUNDS, LOOPS, TILES,
+                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, WIDE, TRIANGLE, CLIP,
+                SAMPLE, CANDIDATES, GENERAL, ROUNDS, LOOPS, TILES,
             ],
             Self::Stage(Stage::SortLast) | Self::SortLast => &[
                 GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, ORDER, WIDE, TRIANGLE, CLIP, SAMPLE,

@@ -3,10 +3,10 @@
 use std::fmt;
 
 use micropoly_core::abi::{
-    AccelFrame, Bounds, BspFrame, BspNode, BspPlane, Colour, Control, Draw, Finding, Frame, Frustum, Group, Layout, Limits, MeshPlace,
-    MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Scalar, Shared, Slot,
-    SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex, Triangle,
-    Verdict,
+    AccelFrame, Bounds, BspFrame, BspNode, BspPlane, Colour, Control, Draw, Finding, Frame, Frustum, Group,
+    Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample,
+    Scalar, Shared, Slot, SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals,
+    TessVertex, Triangle, Verdict,
 };
 use micropoly_core::backend::Device;
 use micropoly_core::stage::{Access, Items, Stage};

@@ -2,10 +2,10 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    AccelFrame, Bounds, BspFrame, BspNode, BspPlane, Colour, Control, Draw, FLAG_SORT_LAST, Finding, Frame, Frustum, Group, Layout,
-    Limits, MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Shared,
-    Slot, SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex,
-    Triangle, Verdict,
+    AccelFrame, Bounds, BspFrame, BspNode, BspPlane, Colour, Control, Draw, FLAG_SORT_LAST, Finding, Frame,
+    Frustum, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe,
+    Question, Sample, Shared, Slot, SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord,
+    TessTotals, TessVertex, Triangle, Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -482,14 +482,10 @@ impl Stage {
                 }
             }
             Self::BspSides => {
-                const {
-                    &[read::<BspFrame>("bsp_frame"), read::<BspPlane>("planes"), write::<u32>("is_before")]
-                }
+                const { &[read::<BspFrame>("bsp_frame"), read::<BspPlane>("planes"), write::<u32>("is_before")] }
             }
             Self::BspCells => {
-                const {
-                    &[read::<BspFrame>("bsp_frame"), read::<u32>("first_pieces"), write::<u32>("counts")]
-                }
+                const { &[read::<BspFrame>("bsp_frame"), read::<u32>("first_pieces"), write::<u32>("counts")] }
             }
             Self::BspRank => {
                 const {

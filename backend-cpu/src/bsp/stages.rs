@@ -10,11 +10,7 @@ use rayon::prelude::*;
 use crate::device::CpuError;
 use crate::stages::Buffers;
 
-pub(crate) fn run(
-    pool: &rayon::ThreadPool,
-    stage: Stage,
-    buffers: Buffers<'_, '_>,
-) -> Result<(), CpuError> {
+pub(crate) fn run(pool: &rayon::ThreadPool, stage: Stage, buffers: Buffers<'_, '_>) -> Result<(), CpuError> {
     let frame = buffers[0].view::<BspFrame>()?[0];
     match stage {
         Stage::BspSides => sides(pool, &frame, buffers),

@@ -25,7 +25,13 @@ fn eye(random: &mut fastrand::Rng) -> [i64; 3] {
         0 => random.i64(0..=LAST.into()),
         1 => random.i64(-20..20),
         2 => random.i64(-far..=far),
-        _ => if random.bool() { far } else { -far },
+        _ => {
+            if random.bool() {
+                far
+            } else {
+                -far
+            }
+        }
     })
 }
 
