@@ -1,7 +1,9 @@
 //! The order of all pieces for an eye: cells, then the trees in them, all at once.
 
-use micropoly_core::abi::BspFrame;
+use micropoly_core::abi::{BspFrame, BspPlane};
 use micropoly_core::accel::bsp::cells::far_to_near;
+use micropoly_core::accel::bsp::plan::BspLists;
+use micropoly_core::accel::bsp::plane::Plane;
 use micropoly_core::accel::bsp::rank::rank;
 use rayon::prelude::*;
 
@@ -93,6 +95,24 @@ impl BspGrid {
     #[must_use]
     pub fn frame(&self, eye: [i64; 3]) -> BspFrame {
         BspFrame::new(self.slabs.each_ref().map(Vec::as_slice), self.planes.len() as u32, eye)
+    }
+
+    /// The planes in words, for [`BspGrid::lists`].
+    #[must_use]
+    pub fn words(&self) -> Vec<BspPlane> {
+        self.planes.iter().map(Plane::words).collect()
+    }
+
+    /// What a device needs to find the order.
+    #[must_use]
+    pub fn lists<'a>(&'a self, planes: &'a [BspPlane]) -> BspLists<'a> {
+        BspLists {
+            slabs: self.slabs.each_ref().map(Vec::as_slice),
+            planes,
+            first_nodes: &self.first_nodes,
+            first_pieces: &self.first_pieces,
+            nodes: &self.nodes,
+        }
     }
 
     fn nodes_of(&self, cell: usize) -> std::ops::Range<usize> {
