@@ -4,8 +4,10 @@ mod common;
 
 use common::{devices, report};
 use micropoly::bsp::Triangle;
-use micropoly::bsp::on_device::on_device;
+use micropoly::devices::{Job, with_device};
 use micropoly_backend_cpu::{BspGrid, BspOptions, BspOrder, CpuDevice};
+use micropoly_core::accel::bsp::plan::{BspLists, DeviceBsp};
+use micropoly_core::backend::Device;
 
 /// Triangles, `spread` far from each other, on a coarse lattice: some of them are in one plane.
 fn soup(random: &mut fastrand::Rng, count: usize, spread: i32) -> Vec<Triangle> {
@@ -32,32 +34,88 @@ fn eyes(random: &mut fastrand::Rng, grid: &BspGrid) -> Vec<[i64; 3]> {
     eyes
 }
 
-#[test]
-fn orders_are_the_cpus() {
-    let mut random = fastrand::Rng::with_seed(1);
-    let flat = [[0.5; 3]; 3];
-    let cases = [
-        ("none", Vec::new(), None),
-        ("one", soup(&mut random, 1, 1), None),
-        ("without area", vec![flat; 5], None),
-        ("a soup in one cell", soup(&mut random, 120, 6), Some(1)),
-        ("a soup in a few", soup(&mut random, 300, 16), Some(3)),
-        ("a soup in many", soup(&mut random, 400, 64), Some(21)),
-    ];
-    let cpu = CpuDevice::new(0).expect("threads");
-    for (name, triangles, cells) in &cases {
-        let options = BspOptions { grid: *cells, ..BspOptions::default() };
+/// A grid, eyes, and the order in which each sees all pieces.
+struct Case {
+    name: &'static str,
+    grid: BspGrid,
+    views: Vec<([i64; 3], Vec<u32>)>,
+}
+
+impl Case {
+    fn new(
+        random: &mut fastrand::Rng,
+        name: &'static str,
+        triangles: &[Triangle],
+        grid: Option<u32>,
+    ) -> Self {
+        let cpu = CpuDevice::new(0).expect("threads");
+        let options = BspOptions { grid, ..BspOptions::default() };
         let grid = cpu.build_bsp(triangles, &options).expect("pieces");
-        let mut order = BspOrder::default();
-        for eye in eyes(&mut random, &grid) {
+        let view = |eye| {
+            let mut order = BspOrder::default();
             cpu.sort_bsp(&grid, eye, &mut order);
-            for (entry, _) in devices() {
-                let times = on_device(&entry, &grid, (eye, &order.pieces), 1);
-                assert!(times.is_ok(), "{name} on {} from {eye:?}: {:?}", entry.name, times.err());
+            (eye, order.pieces)
+        };
+        let views = eyes(random, &grid).into_iter().map(view).collect();
+        Self { name, grid, views }
+    }
+}
+
+/// All cases on one device, which keeps a grid for all eyes.
+struct Orders<'a>(&'a [Case]);
+
+impl Job for Orders<'_> {
+    type Output = ();
+
+    fn run<D: Device>(self, mut device: D, device_name: String) {
+        for Case { name, grid, views } in self.0 {
+            let planes = grid.words();
+            let sorter = DeviceBsp::new(&mut device, &grid.lists(&planes)).expect("memory");
+            assert_eq!(sorter.pieces() as usize, grid.pieces.len());
+            for (eye, wanted) in views {
+                let mut found = vec![0; wanted.len()];
+                sorter.sort(&mut device, *eye).expect("sorts");
+                sorter.read(&mut device, &mut found).expect("reads");
+                assert!(found == *wanted, "{name} on {device_name} from {eye:?}");
             }
         }
-        for (entry, _) in devices() {
-            report(&entry, &format!("order of {} pieces: {name}", grid.pieces.len()), "same bits");
+    }
+}
+
+#[test]
+fn orders_are_the_cpus() {
+    let random = &mut fastrand::Rng::with_seed(1);
+    let mut cases = Vec::new();
+    for (name, triangles, grid) in [
+        ("none", Vec::new(), None),
+        ("one", soup(random, 1, 1), None),
+        ("without area", vec![[[0.5; 3]; 3]; 5], None),
+        ("a soup in one cell", soup(random, 120, 6), Some(1)),
+        ("a soup in a few", soup(random, 300, 16), Some(3)),
+        ("a soup in many", soup(random, 400, 64), Some(21)),
+    ] {
+        cases.push(Case::new(random, name, &triangles, grid));
+    }
+    let orders = |case: &Case| case.views.iter().map(|(_, order)| order.clone()).collect::<Vec<_>>();
+    assert!(cases[3..].iter().all(|case| orders(case).iter().any(|order| *order != orders(case)[0])));
+    for (entry, _) in devices() {
+        with_device(&entry, 0, Orders(&cases)).expect("opens");
+        for Case { name, grid, views } in &cases {
+            let what = format!("order of {} pieces from {} eyes: {name}", grid.pieces.len(), views.len());
+            report(&entry, &what, "same bits");
         }
+    }
+}
+
+/// Lists that do not go together are refused.
+#[test]
+fn lists_of_other_cells_are_refused() {
+    let mut device = CpuDevice::new(1).expect("threads");
+    let grid = device.build_bsp(&[], &BspOptions::default()).expect("no pieces");
+    let lists = grid.lists(&[]);
+    for first_nodes in [&[][..], &[0; 3]] {
+        let lists = BspLists { first_nodes, ..lists };
+        let error = DeviceBsp::new(&mut device, &lists).expect_err("of one cell");
+        assert!(error.to_string().contains("must be 2 to 2"), "{error}");
     }
 }

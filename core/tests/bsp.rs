@@ -217,7 +217,8 @@ fn words_of_a_plane_say_on_which_side_an_eye_is() {
         let eye = [0; 3].map(|_| below(&mut random, FARTHEST));
         let normal = [0; 3].map(|_| below(&mut random, 1 << 41));
         let value: i128 = (0..3).map(|k| i128::from(normal[k]) * i128::from(eye[k])).sum();
-        let away = i128::from(below(&mut random, 1 << random.u32(1..34)));
+        let most = 1 << random.u32(1..34);
+        let away = i128::from(below(&mut random, most));
         let near = i64::try_from(value - away).ok().filter(|offset| offset.abs() <= 6 << 60);
         let offset = near.unwrap_or_else(|| below(&mut random, 6 << 60));
         let plane = Plane { normal, offset };
