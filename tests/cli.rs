@@ -637,6 +637,14 @@ fn sorting_a_mesh_says_what_it_takes() {
     let output = micropoly(&["accel", "sort", "scenes/ball.obj", "--bsp-grid", "3", "--repeat", "1"]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success() && said.contains("grid          3x3x3, growth "), "{said}");
+    for backend in ["cpu", "all"] {
+        let output = micropoly(&["accel", "sort", "scenes/ball.obj", "--repeat", "1", "--backend", backend]);
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success() && said.contains("\nCPU ("), "{said}");
+        assert!(said.ends_with("\nthe order is the CPU's, bit by bit\n"), "{said}");
+    }
+    let output = micropoly(&["accel", "sort", "scenes/ball.obj", "--device", "0"]);
+    assert_eq!(output.status.code(), Some(2), "a device of no backend");
     let output = micropoly(&["accel", "sort", "scenes/teapot.bpt"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("these are Bézier patches"));
     let folder = tempfile::tempdir().expect("a folder");

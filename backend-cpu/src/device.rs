@@ -13,7 +13,7 @@ use crate::buffer::CpuBuffer;
 use crate::draw::{Lists, Steps};
 use crate::sort_last::{self, Keys};
 use crate::tessellate::{self, Evaluate, Levels, OwnSteps};
-use crate::{draw, local, pixels, stages, trees};
+use crate::{bsp, draw, local, pixels, stages, trees};
 
 /// What can go wrong on the CPU.
 #[derive(Debug)]
@@ -225,6 +225,9 @@ impl Device for CpuDevice {
                 | Stage::AccelNearest,
                 Items::Count(count),
             ) => trees::run(&self.pool, stage, count, buffers),
+            (Stage::BspSides | Stage::BspCells | Stage::BspRank, Items::Count(_)) => {
+                bsp::stages::run(&self.pool, stage, buffers)
+            }
             (Stage::Flush, _) => stages::flush(buffers),
             (Stage::KnownAnswers, Items::Count(count)) => stages::known_answers(buffers, count),
             _ => Err(CpuError::Bindings { stage: stage.name() }),

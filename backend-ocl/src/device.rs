@@ -334,7 +334,10 @@ impl Grid {
                 | Stage::AccelTree
                 | Stage::AccelBoxes
                 | Stage::AccelRays
-                | Stage::AccelNearest,
+                | Stage::AccelNearest
+                | Stage::BspSides
+                | Stage::BspCells
+                | Stage::BspRank,
                 Items::Count(count),
             ) => Some(Self::of_items(count.into())),
             (Stage::AccelScan, _) => Some(Self::of_groups(1, 1)),

@@ -35,11 +35,12 @@ pub const TESS_FILES: &[(&str, &str)] = files! {
     "tess_vertex.cl" "tess_evaluated.cl" "tess_evaluate.cl" "known_answers.cl"
 };
 
-/// The same of the stages of trees.
+/// The same of the stages of trees and BSP-grids.
 pub const ACCEL_FILES: &[(&str, &str)] = files! {
     "gen.cl" "num.cl" "counts.cl" "accel_box.cl" "accel_extent.cl" "accel_codes.cl" "accel_sort.cl" "accel_count.cl"
     "accel_scan.cl" "accel_scatter.cl" "accel_tree.cl" "accel_boxes.cl" "accel_query.cl" "accel_see.cl" "accel_fill.cl"
-    "accel_ray.cl" "accel_point.cl" "accel_walk.cl" "accel_rays.cl" "accel_nearest.cl" "known_answers.cl"
+    "accel_ray.cl" "accel_point.cl" "accel_walk.cl" "accel_rays.cl" "accel_nearest.cl"
+    "bsp_sides.cl" "bsp_place.cl" "bsp_cells.cl" "bsp_rank.cl" "known_answers.cl"
 };
 
 /// The file whose place a caller's own levels take.
@@ -59,7 +60,7 @@ pub enum Part {
     Frame,
     /// The tessellator's.
     Tessellator,
-    /// Those of trees.
+    /// Those of trees and BSP-grids.
     Accel,
 }
 
@@ -82,7 +83,10 @@ impl Part {
             | Stage::AccelSee
             | Stage::AccelFill
             | Stage::AccelRays
-            | Stage::AccelNearest => Self::Accel,
+            | Stage::AccelNearest
+            | Stage::BspSides
+            | Stage::BspCells
+            | Stage::BspRank => Self::Accel,
             _ => Self::Frame,
         }
     }
@@ -159,7 +163,7 @@ const fn write<T: Shared>(name: &'static str) -> Argument {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 36] = [
+    pub const ALL: [Self; 39] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::Stage(Stage::Scan),
@@ -185,6 +189,9 @@ impl Which {
         Self::Stage(Stage::AccelFill),
         Self::Stage(Stage::AccelRays),
         Self::Stage(Stage::AccelNearest),
+        Self::Stage(Stage::BspSides),
+        Self::Stage(Stage::BspCells),
+        Self::Stage(Stage::BspRank),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::ArrangeDraw,
@@ -232,6 +239,9 @@ impl Which {
             Self::Stage(Stage::AccelFill) => "stage_accel_fill",
             Self::Stage(Stage::AccelRays) => "stage_accel_rays",
             Self::Stage(Stage::AccelNearest) => "stage_accel_nearest",
+            Self::Stage(Stage::BspSides) => "stage_bsp_sides",
+            Self::Stage(Stage::BspCells) => "stage_bsp_cells",
+            Self::Stage(Stage::BspRank) => "stage_bsp_rank",
             Self::Stage(Stage::Flush) => "stage_flush",
             Self::Stage(Stage::KnownAnswers) => "stage_known_answers",
             Self::ArrangeDraw => "arrange_draw",

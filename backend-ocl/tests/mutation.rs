@@ -242,6 +242,7 @@ fn stages(file: &str) -> Vec<Stage> {
         "accel_query.cl" => vec![Stage::AccelSee, Stage::AccelFill],
         "accel_ray.cl" | "accel_walk.cl" => vec![Stage::AccelRays, Stage::AccelNearest],
         "accel_point.cl" => vec![Stage::AccelNearest],
+        "bsp_place.cl" => vec![Stage::BspCells, Stage::BspRank],
         "surface.cl" | "border.cl" => vec![Stage::Split, Stage::Bound, Stage::Draw, Stage::Mesh],
         "counts.cl" => {
             vec![Stage::Take, Stage::Scan, Stage::Balance, Stage::Deal, Stage::Local, Stage::MeshPlaces]

@@ -419,7 +419,10 @@ impl WgpuDevice {
                 | Stage::AccelTree
                 | Stage::AccelBoxes
                 | Stage::AccelRays
-                | Stage::AccelNearest,
+                | Stage::AccelNearest
+                | Stage::BspSides
+                | Stage::BspCells
+                | Stage::BspRank,
                 Items::Count(count),
             ) => Ok(spread(count.div_ceil(ITEMS_A_GROUP))),
             (Stage::AccelScan, _) => Ok(Groups::Known(1, 1)),

@@ -54,6 +54,7 @@ files! {
     SHADE: "shade",
     SITE: "site",
     ORDER: "order",
+    WIDE: "wide",
     TRIANGLE: "triangle",
     CLIP: "clip",
     SAMPLE: "sample",
@@ -123,6 +124,10 @@ files! {
     ACCEL_POINT: "accel_point",
     ACCEL_RAYS: "accel_rays",
     ACCEL_NEAREST: "accel_nearest",
+    BSP_SIDES: "bsp_sides",
+    BSP_PLACE: "bsp_place",
+    BSP_CELLS: "bsp_cells",
+    BSP_RANK: "bsp_rank",
     ARRANGE: "arrange",
 }
 
@@ -185,7 +190,7 @@ pub enum Kind {
 
 impl Which {
     /// All kernels.
-    pub const ALL: [Self; 43] = [
+    pub const ALL: [Self; 46] = [
         Self::Stage(Stage::Take),
         Self::Stage(Stage::Bound),
         Self::BoundAny,
@@ -215,6 +220,9 @@ impl Which {
         Self::Stage(Stage::AccelFill),
         Self::Stage(Stage::AccelRays),
         Self::Stage(Stage::AccelNearest),
+        Self::Stage(Stage::BspSides),
+        Self::Stage(Stage::BspCells),
+        Self::Stage(Stage::BspRank),
         Self::Stage(Stage::Flush),
         Self::Stage(Stage::KnownAnswers),
         Self::Arrange,
@@ -237,7 +245,7 @@ impl Which {
     }
 
     /// Is it compiled only when it is first needed? Those of LOCAL, of layers, of sort-last, of
-    /// meshes, of the tessellator, of trees, and for any patch and profile are.
+    /// meshes, of the tessellator, of trees, of BSP-grids, and for any patch and profile are.
     const fn can_wait(self) -> bool {
         matches!(
             self,
@@ -260,6 +268,9 @@ impl Which {
                     | Stage::AccelFill
                     | Stage::AccelRays
                     | Stage::AccelNearest
+                    | Stage::BspSides
+                    | Stage::BspCells
+                    | Stage::BspRank
             ) | Self::BoundAny
                 | Self::BoundFlat
                 | Self::LocalAny
@@ -323,6 +334,9 @@ impl Which {
             Self::Stage(Stage::AccelFill) => &[Stage::AccelFill],
             Self::Stage(Stage::AccelRays) => &[Stage::AccelRays],
             Self::Stage(Stage::AccelNearest) => &[Stage::AccelNearest],
+            Self::Stage(Stage::BspSides) => &[Stage::BspSides],
+            Self::Stage(Stage::BspCells) => &[Stage::BspCells],
+            Self::Stage(Stage::BspRank) => &[Stage::BspRank],
             Self::Stage(Stage::Flush) => &[Stage::Flush],
             Self::Stage(Stage::KnownAnswers) => &[Stage::KnownAnswers],
             Self::Arrange => &[Stage::Bound, Stage::Split],
@@ -452,6 +466,9 @@ impl Which {
             Self::Stage(Stage::AccelNearest) => {
                 &[GEN, ITEMS, NUM, LOOPS, ACCEL_OFFSET, ACCEL_WALK, ACCEL_POINT, ACCEL_NEAREST]
             }
+            Self::Stage(Stage::BspSides) => &[GEN, ITEMS, WIDE, BSP_SIDES],
+            Self::Stage(Stage::BspCells) => &[GEN, ITEMS, BSP_PLACE, BSP_CELLS],
+            Self::Stage(Stage::BspRank) => &[GEN, ITEMS, NUM, LOOPS, BSP_PLACE, BSP_RANK],
             Self::Stage(Stage::Flush) => &[GEN, FLUSH],
             Self::Stage(Stage::KnownAnswers) => &[GEN, ITEMS, NUM, KNOWN_ANSWERS],
             Self::Arrange => &[GEN, ITEMS, ARRANGE],
@@ -468,6 +485,7 @@ impl Which {
                 PROJECT,
                 SITE,
                 BLOCKS,
+                WIDE,
                 TRIANGLE,
                 DICE,
                 DICE_BEZIER,
@@ -490,6 +508,7 @@ impl Which {
                 PROJECT,
                 SITE,
                 BLOCKS,
+                WIDE,
                 TRIANGLE,
                 DICE,
                 DICE_ANY,
@@ -504,15 +523,15 @@ impl Which {
             Self::WriteBins => &[GEN, SITE, GRIDS, BLOCKS, BINS, WRITE_BINS, FILL_BINS],
             Self::ArrangeTiles => &[GEN, SITE, GRIDS, BLOCKS, BINS, ROUNDS, ARRANGE_TILES],
             Self::Tiles(Kind::Near) => &[
-                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, TRIANGLE, SAMPLE,
+                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, WIDE, TRIANGLE, SAMPLE,
                 CANDIDATES, NEAR, ROUNDS, LOOPS, TILES,
             ],
             Self::Tiles(Kind::General) => &[
-                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, TRIANGLE, CLIP, SAMPLE,
-                CANDIDATES, GENERAL, ROUNDS, LOOPS, TILES,
+                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, BINS, ORDER, WIDE, TRIANGLE, CLIP,
+                SAMPLE, CANDIDATES, GENERAL, ROUNDS, LOOPS, TILES,
             ],
             Self::Stage(Stage::SortLast) | Self::SortLast => &[
-                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, ORDER, TRIANGLE, CLIP, SAMPLE,
+                GEN, GRIDS, NUM, SURFACE, BORDER, PROJECT, SITE, BLOCKS, ORDER, WIDE, TRIANGLE, CLIP, SAMPLE,
                 GENERAL, ROUNDS, LOOPS, KEYS, SORT_LAST,
             ],
             Self::Merge => &[GEN, ITEMS, SITE, ORDER, KEYS, MERGE],

@@ -3,6 +3,7 @@
 //! buffers, every dice rate).
 
 mod groups;
+mod order;
 mod scenes;
 mod tessellations;
 mod trees;
@@ -80,6 +81,9 @@ pub fn input(stage: Stage, round: u64) -> Input {
         Stage::AccelSee => trees::see(&mut random),
         Stage::AccelFill => trees::fill(&mut random),
         Stage::AccelRays | Stage::AccelNearest => trees::probes(&mut random),
+        Stage::BspSides => order::sides(&mut random),
+        Stage::BspCells => order::cells(&mut random),
+        Stage::BspRank => order::ranks(&mut random),
         Stage::Flush => (Items::Count(1), vec![words(&[control(&mut random)])]),
         Stage::KnownAnswers => known(&mut random),
     };
@@ -118,6 +122,9 @@ const fn number(stage: Stage) -> u64 {
         Stage::AccelFill => 27,
         Stage::AccelRays => 28,
         Stage::AccelNearest => 29,
+        Stage::BspSides => 30,
+        Stage::BspCells => 31,
+        Stage::BspRank => 32,
     }
 }
 

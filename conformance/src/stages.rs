@@ -3,10 +3,10 @@
 use std::fmt;
 
 use micropoly_core::abi::{
-    AccelFrame, Bounds, Colour, Control, Draw, Finding, Frame, Frustum, Group, Layout, Limits, MeshPlace,
-    MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Scalar, Shared, Slot,
-    SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex, Triangle,
-    Verdict,
+    AccelFrame, Bounds, BspFrame, BspNode, BspPlane, Colour, Control, Draw, Finding, Frame, Frustum, Group,
+    Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample,
+    Scalar, Shared, Slot, SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals,
+    TessVertex, Triangle, Verdict,
 };
 use micropoly_core::backend::Device;
 use micropoly_core::stage::{Access, Items, Stage};
@@ -102,7 +102,7 @@ fn transfer<D: Device>(
         u32, f32, TessFrame, TessPatch, TessLevels, TessRecord, TessTotals, TessVertex, Patch, Object, Frame,
         Surface, Draw, Verdict, Slot, Control, Group, Question, Limits, Sample, Colour, MeshVertex,
         MeshPlace, MeshTotals, Tap, Pixel, AccelFrame, Bounds, Node, SortKey, Frustum, Triangle, Probe,
-        Finding
+        Finding, BspFrame, BspNode, BspPlane
     )
 }
 

@@ -724,6 +724,49 @@ shared_structs! {
         distance: f32,
     }
 
+    /// A node of a BSP tree: a plane, the pieces that lie in it, and those before and behind it. Nodes are in the order root,
+    /// front, back, and so are pieces (see [`crate::accel::bsp::rank`]).
+    struct BspNode {
+        /// The triangle whose plane it is.
+        triangle: u32,
+        /// Its own pieces: all in one plane, lower triangles first.
+        own: u32,
+        /// Pieces before the plane.
+        front: u32,
+        /// Pieces behind it.
+        back: u32,
+        /// The root of what is behind it, counted from this node; 0 if there is nothing.
+        to_back: u32,
+    }
+
+    /// A plane of a triangle, each number in two words: `high · 2³² + low` (see [`crate::accel::bsp::plane`]).
+    struct BspPlane {
+        /// Lower words of its normal; they may be negative.
+        low: [i32; 3],
+        /// Upper words.
+        high: [i32; 3],
+        /// Lower word of its distance from the origin, in lengths of its normal.
+        offset_low: i32,
+        /// Upper word.
+        offset_high: i32,
+    }
+
+    /// What putting the pieces of a BSP-grid into order goes by.
+    struct BspFrame {
+        /// Planes of triangles.
+        planes: u32,
+        /// Cells of the grid.
+        cells: u32,
+        /// Slabs of cells along each axis.
+        slabs: [u32; 3],
+        /// The slab that the eye is in, along each axis (see [`crate::accel::bsp::cells::slab_of`]).
+        eye_slabs: [u32; 3],
+        /// The eye, in units of the lattice: less than 2²⁹ from its origin.
+        eye: [i32; 3],
+        /// Always 0, which compilers cannot know.
+        zero: u32,
+    }
+
     /// A sample that a pixel is made of.
     struct Tap {
         /// Its share of the pixel; all shares together are 1.

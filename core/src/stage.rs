@@ -2,10 +2,10 @@
 //! checked against this table by reflection.
 
 use crate::abi::{
-    AccelFrame, Bounds, Colour, Control, Draw, FLAG_SORT_LAST, Finding, Frame, Frustum, Group, Layout,
-    Limits, MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe, Question, Sample, Shared,
-    Slot, SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord, TessTotals, TessVertex,
-    Triangle, Verdict,
+    AccelFrame, Bounds, BspFrame, BspNode, BspPlane, Colour, Control, Draw, FLAG_SORT_LAST, Finding, Frame,
+    Frustum, Group, Layout, Limits, MeshPlace, MeshTotals, MeshVertex, Node, Object, Patch, Pixel, Probe,
+    Question, Sample, Shared, Slot, SortKey, Surface, Tap, TessFrame, TessLevels, TessPatch, TessRecord,
+    TessTotals, TessVertex, Triangle, Verdict,
 };
 
 /// How a stage uses a buffer.
@@ -142,6 +142,12 @@ pub enum Stage {
     AccelRays,
     /// Trees: what is nearest to points: [`crate::accel::nearest`].
     AccelNearest,
+    /// BSP-grids: which planes the eye is before: [`crate::accel::bsp::plane`].
+    BspSides,
+    /// BSP-grids: how many pieces the cells have, far to near: [`crate::accel::bsp::cells`].
+    BspCells,
+    /// BSP-grids: the order of all pieces: [`crate::accel::bsp::rank`].
+    BspRank,
     /// Empties the draw buffer: [`crate::kernel::take::flush`].
     Flush,
     /// Does the device compute as it must? [`crate::kernel::known_answers`].
@@ -150,7 +156,7 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in order.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 32] = [
         Self::Take,
         Self::Bound,
         Self::Scan,
@@ -178,6 +184,9 @@ impl Stage {
         Self::AccelFill,
         Self::AccelRays,
         Self::AccelNearest,
+        Self::BspSides,
+        Self::BspCells,
+        Self::BspRank,
         Self::Flush,
         Self::KnownAnswers,
     ];
@@ -213,6 +222,9 @@ impl Stage {
             Self::AccelFill => "accel_fill",
             Self::AccelRays => "accel_rays",
             Self::AccelNearest => "accel_nearest",
+            Self::BspSides => "bsp_sides",
+            Self::BspCells => "bsp_cells",
+            Self::BspRank => "bsp_rank",
             Self::Flush => "flush",
             Self::KnownAnswers => "known_answers",
         }
@@ -466,6 +478,26 @@ impl Stage {
                         read::<Triangle>("triangles"),
                         read::<Probe>("probes"),
                         write::<Finding>("found"),
+                    ]
+                }
+            }
+            Self::BspSides => {
+                const { &[read::<BspFrame>("bsp_frame"), read::<BspPlane>("planes"), write::<u32>("is_before")] }
+            }
+            Self::BspCells => {
+                const { &[read::<BspFrame>("bsp_frame"), read::<u32>("first_pieces"), write::<u32>("counts")] }
+            }
+            Self::BspRank => {
+                const {
+                    &[
+                        read::<BspFrame>("bsp_frame"),
+                        read::<BspNode>("bsp_nodes"),
+                        read::<u32>("first_nodes"),
+                        read::<u32>("first_pieces"),
+                        read::<u32>("is_before"),
+                        read::<u32>("counts"),
+                        write::<u32>("places"),
+                        write::<u32>("order"),
                     ]
                 }
             }

@@ -1,7 +1,8 @@
 //! What is found about few pieces at once, and about cells, is what looking at each alone says.
 
-use micropoly_core::accel::bsp::cells::{quadrants, slab_end, slab_of};
-use micropoly_core::accel::bsp::lattice::Point;
+use micropoly_core::abi::BspFrame;
+use micropoly_core::accel::bsp::cells::{far_to_near, place_of, quadrants, slab_end, slab_of};
+use micropoly_core::accel::bsp::lattice::{FARTHEST, Point};
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
 use micropoly_core::accel::bsp::polygon::{Corner, Cutter, Knife, side, whole};
 use micropoly_core::accel::bsp::table::{FEW, SLOTS, Sides, Table};
@@ -166,4 +167,68 @@ fn a_coordinate_is_in_the_first_slab_that_ends_beyond_it() {
             assert_eq!(slab_of(&ends, at), wanted, "{at} in {ends:?}");
         }
     }
+}
+
+#[test]
+fn the_nearest_slab_comes_last_and_no_slab_hides_one_that_comes_later() {
+    for slabs in 1..12 {
+        for eye in 0..=slabs {
+            let order: Vec<u32> = (0..slabs).map(|place| far_to_near(slabs, eye, place)).collect();
+            let mut wanted: Vec<u32> = (0..slabs).collect();
+            // Before the eye's, beyond it, and its own.
+            wanted.sort_by_key(|slab| (*slab >= eye, if *slab < eye { *slab } else { slabs - slab }));
+            assert_eq!(order, wanted, "{slabs} {eye}");
+            assert!((0..slabs).all(|slab| order[far_to_near(slabs, eye, slab) as usize] == slab));
+        }
+    }
+}
+
+#[test]
+fn a_cells_place_is_that_of_its_slabs() {
+    let ends: [Vec<i32>; 3] = [2, 5, 3].map(|slabs| (1..=slabs).map(|slab| 10 * slab).collect());
+    for eye in [[-5, 25, 40], [15, 60, 1], [11, 30, 21], [400, -300, 30]] {
+        let frame = BspFrame::new(ends.each_ref().map(Vec::as_slice), 7, eye);
+        assert_eq!((frame.cells, frame.slabs, frame.planes), (30, [2, 5, 3], 7));
+        let along = |axis: usize| {
+            (0..frame.slabs[axis]).map(move |k| far_to_near(frame.slabs[axis], frame.eye_slabs[axis], k))
+        };
+        let mut place = 0;
+        for x in along(0) {
+            for y in along(1) {
+                for z in along(2) {
+                    assert_eq!(place_of(&frame, (x * 5 + y) * 3 + z), place, "{eye:?} {x} {y} {z}");
+                    place += 1;
+                }
+            }
+        }
+    }
+}
+
+/// A number below `most`, or one of the largest and smallest.
+fn below(random: &mut fastrand::Rng, most: i64) -> i64 {
+    [most - 1, 1 - most, random.i64(1 - most..most), random.i64(-9..9)][random.usize(0..4)]
+}
+
+#[test]
+fn words_of_a_plane_say_on_which_side_an_eye_is() {
+    let mut random = fastrand::Rng::with_seed(5);
+    let mut on_plane = 0;
+    for _ in 0..100_000 {
+        let eye = [0; 3].map(|_| below(&mut random, FARTHEST));
+        let normal = [0; 3].map(|_| below(&mut random, 1 << 41));
+        let value: i128 = (0..3).map(|k| i128::from(normal[k]) * i128::from(eye[k])).sum();
+        let most = 1 << random.u32(1..34);
+        let away = i128::from(below(&mut random, most));
+        let near = i64::try_from(value - away).ok().filter(|offset| offset.abs() <= 6 << 60);
+        let offset = near.unwrap_or_else(|| below(&mut random, 6 << 60));
+        let plane = Plane { normal, offset };
+        assert_eq!(plane.is_before(eye), value > i128::from(offset), "{plane:?} {eye:?}");
+        on_plane += usize::from(value == i128::from(offset));
+        let words = plane.words();
+        for k in 0..3 {
+            assert_eq!((i64::from(words.high[k]) << 32) + i64::from(words.low[k]), normal[k]);
+        }
+        assert_eq!((i64::from(words.offset_high) << 32) + i64::from(words.offset_low), offset);
+    }
+    assert!(on_plane > 100, "{on_plane}");
 }

@@ -1,6 +1,7 @@
 //! How a mesh becomes pieces that can be put into order for any eye, and what that takes (Imre 2016, Table 6.1).
 
 mod naive;
+pub mod on_device;
 
 use std::time::Instant;
 
@@ -103,6 +104,15 @@ pub fn cut(
     Ok((grid, cut))
 }
 
+/// Where a camera is, in units of the grid's lattice.
+///
+/// # Errors
+/// [`Error::Scene`] if it is too far away.
+pub fn eye(grid: &BspGrid, camera: &Camera) -> Result<[i64; 3]> {
+    let place = camera.view.inverse().translation;
+    grid.lattice.eye(place.to_array()).ok_or_else(too_far)
+}
+
 /// Puts the pieces into order for a camera, and in turns, the triangles by their centroids; on all threads.
 ///
 /// # Errors
@@ -114,9 +124,8 @@ pub fn sort(
     repeat: u32,
 ) -> Result<(BspOrder, Sorted)> {
     let device = CpuDevice::new(0).map_err(|error| Error::on_device(&error))?;
-    let place = camera.view.inverse().translation;
-    let eye = grid.lattice.eye(place.to_array()).ok_or_else(too_far)?;
-    let from = place.as_vec3().to_array();
+    let eye = eye(grid, camera)?;
+    let from = camera.view.inverse().translation.as_vec3().to_array();
     let (mut order, mut keys) = (BspOrder::default(), Vec::new());
     let mut sorted = Sorted { milliseconds: f64::INFINITY, radix_milliseconds: f64::INFINITY };
     for _ in 0..repeat.max(1) {

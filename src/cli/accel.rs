@@ -50,15 +50,22 @@ struct TreeArguments {
     /// Bits of Morton codes.
     #[arg(long, value_name = "30|63", default_value = "30", value_parser = precision)]
     bits: Precision,
-    /// Build it on these devices, too, and compare: `all`, or those of one backend.
+    #[command(flatten)]
+    others: OtherDevices,
+    /// Runs of each; the shortest counts.
+    #[arg(long, value_name = "N", default_value = "10", value_parser = value_parser!(u32).range(1..=1000))]
+    repeat: u32,
+}
+
+/// Devices on which the same is done once more.
+#[derive(Debug, Args)]
+pub(super) struct OtherDevices {
+    /// Do it on these devices, too, and compare: `all`, or those of one backend.
     #[arg(long, value_enum)]
     backend: Option<Compared>,
     /// Number or part of the name of a device of the backend (see `micropoly devices`).
     #[arg(long, value_name = "NUMBER|NAME", requires = "backend")]
     device: Option<String>,
-    /// Runs of each; the shortest counts.
-    #[arg(long, value_name = "N", default_value = "10", value_parser = value_parser!(u32).range(1..=1000))]
-    repeat: u32,
 }
 
 pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
@@ -89,18 +96,24 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
         say!("query         {:.3} ms", seen.milliseconds);
         say!("box by box    {:.3} ms", seen.milliseconds_box_by_box);
     }
-    let Some(backend) = tree.backend else { return Ok(()) };
+    let Some(others) = tree.others.meant()? else { return Ok(()) };
     let triangles = triangles(&mesh);
     say!("{}", head(&questions));
-    for entry in devices(backend.only())?.into_iter().filter(|entry| tree.means(entry)) {
+    for entry in others {
         say!("{}", line(&on_device(&entry, (&triangles, &lbvh), tree.bits, &questions, tree.repeat)?));
     }
     say!("trees and answers are the CPU's, bit by bit");
     Ok(())
 }
 
-impl TreeArguments {
-    /// Is the tree to be built on a device?
+impl OtherDevices {
+    /// The devices that are meant, if a backend is given.
+    pub(super) fn meant(&self) -> Result<Option<Vec<DeviceEntry>>> {
+        let Some(backend) = self.backend else { return Ok(None) };
+        let all = devices(backend.only())?;
+        Ok(Some(all.into_iter().filter(|entry| self.means(entry)).collect()))
+    }
+
     fn means(&self, entry: &DeviceEntry) -> bool {
         let number = |text: &String| text.parse() == Ok(entry.index);
         self.device.as_ref().is_none_or(|text| number(text) || entry.is_called(text))

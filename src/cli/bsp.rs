@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::{Args, value_parser};
-use micropoly::bsp::{OneTree, Row, Table, cut, measure, sort, triangles};
+use micropoly::bsp::on_device::{Times, on_device};
+use micropoly::bsp::{OneTree, Row, Table, cut, eye, measure, sort, triangles};
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bsp::polygon::MOST_SLABS;
 use micropoly::tess::TessSource;
 use micropoly::{Error, Result};
 use micropoly_backend_cpu::BspOptions;
 
-use super::accel::load;
+use super::accel::{OtherDevices, load};
 use super::args::{BenchArguments, from_zero};
 use super::render::write_json;
 
@@ -29,6 +30,8 @@ pub(crate) struct SortArguments {
     #[arg(long, value_name = "N", default_value_t = BspOptions::default().candidates,
           value_parser = value_parser!(u32).range(1..=1024))]
     candidates: u32,
+    #[command(flatten)]
+    others: OtherDevices,
     /// Runs of each; the shortest counts.
     #[arg(long, value_name = "N", default_value = "10", value_parser = value_parser!(u32).range(1..=1000))]
     repeat: u32,
@@ -45,7 +48,8 @@ pub(crate) fn run(arguments: &SortArguments) -> Result<()> {
         ..BspOptions::default()
     };
     let (grid, cut) = cut(&triangles, &options, 0, arguments.repeat)?;
-    let (_, sorted) = sort(&grid, &triangles, &mesh.camera()?, arguments.repeat)?;
+    let camera = mesh.camera()?;
+    let (order, sorted) = sort(&grid, &triangles, &camera, arguments.repeat)?;
     let [x, y, z] = cut.grid;
     say!("triangles     {}, {} of them without area", cut.triangles, cut.degenerate);
     say!("grid          {x}x{y}x{z}, growth {:.2}", cut.grid_growth);
@@ -55,6 +59,15 @@ pub(crate) fn run(arguments: &SortArguments) -> Result<()> {
     say!("build         {:.2} ms", cut.milliseconds);
     say!("sort          {:.3} ms", sorted.milliseconds);
     say!("by centroids  {:.3} ms, a radix sort, not exact", sorted.radix_milliseconds);
+    let Some(others) = arguments.others.meant()? else { return Ok(()) };
+    let eye = eye(&grid, &camera)?;
+    say!("{:<40} {:>9} {:>9} {:>9}", "ms on device", "upload", "sort", "read");
+    for entry in others {
+        let Times { device, upload, sort, read } =
+            on_device(&entry, &grid, (eye, &order.pieces), arguments.repeat)?;
+        say!("{device:<40.40} {upload:>9.2} {sort:>9.3} {read:>9.3}");
+    }
+    say!("the order is the CPU's, bit by bit");
     Ok(())
 }
 

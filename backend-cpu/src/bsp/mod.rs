@@ -7,6 +7,7 @@
 //! | the rest of a tree, once few parts are left | `few.rs` |
 //! | corners that those have in common | `shared.rs` |
 //! | the order of all pieces for an eye | `sort.rs` |
+//! | the same order, as the stages of any device find it | `stages.rs` |
 //! | samples that blend them in that order | `draw.rs` |
 //!
 //! All lists are counted, summed up and filled, or grow; nothing is dropped. What is built does not depend on the number of
@@ -17,6 +18,7 @@ mod draw;
 mod few;
 mod shared;
 mod sort;
+pub(crate) mod stages;
 mod tree;
 
 use micropoly_core::accel::bounds::Bounds;

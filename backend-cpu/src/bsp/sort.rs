@@ -1,6 +1,9 @@
 //! The order of all pieces for an eye: cells, then the trees in them, all at once.
 
-use micropoly_core::accel::bsp::cells::{far_to_near, slab_of};
+use micropoly_core::abi::{BspFrame, BspPlane};
+use micropoly_core::accel::bsp::cells::far_to_near;
+use micropoly_core::accel::bsp::plan::BspLists;
+use micropoly_core::accel::bsp::plane::Plane;
 use micropoly_core::accel::bsp::rank::rank;
 use rayon::prelude::*;
 
@@ -54,17 +57,17 @@ fn sort(grid: &BspGrid, eye: [i64; 3], order: &mut BspOrder) {
 
 /// Cells with something in them, far to near.
 fn far_to_near_cells(grid: &BspGrid, eye: [i64; 3]) -> Vec<usize> {
-    let [xs, ys, zs] = [0, 1, 2].map(|axis| {
-        let ends = &grid.slabs[axis];
-        far_to_near(ends.len() as u32, slab_of(ends, eye[axis]))
-    });
-    let [_, rows, columns] = grid.slabs.each_ref().map(Vec::len);
+    let BspFrame { slabs, eye_slabs, .. } = grid.frame(eye);
+    let along = |axis: usize| {
+        let (slabs, eye_slab) = (slabs[axis], eye_slabs[axis]);
+        (0..slabs).map(move |place| far_to_near(slabs, eye_slab, place))
+    };
     let mut cells = Vec::new();
-    for x in xs {
-        for y in ys.clone() {
-            let row = (x as usize * rows + y as usize) * columns;
-            let cell = |z: u32| row + z as usize;
-            cells.extend(zs.clone().map(cell).filter(|cell| !grid.nodes_of(*cell).is_empty()));
+    for x in along(0) {
+        for y in along(1) {
+            let row = (x * slabs[1] + y) * slabs[2];
+            let cell = |z: u32| (row + z) as usize;
+            cells.extend(along(2).map(cell).filter(|cell| !grid.nodes_of(*cell).is_empty()));
         }
     }
     cells
@@ -88,6 +91,30 @@ fn shared<'a>(
 }
 
 impl BspGrid {
+    /// What an eye's order goes by.
+    #[must_use]
+    pub fn frame(&self, eye: [i64; 3]) -> BspFrame {
+        BspFrame::new(self.slabs.each_ref().map(Vec::as_slice), self.planes.len() as u32, eye)
+    }
+
+    /// The planes in words, for [`BspGrid::lists`].
+    #[must_use]
+    pub fn words(&self) -> Vec<BspPlane> {
+        self.planes.iter().map(Plane::words).collect()
+    }
+
+    /// What a device needs to find the order.
+    #[must_use]
+    pub fn lists<'a>(&'a self, planes: &'a [BspPlane]) -> BspLists<'a> {
+        BspLists {
+            slabs: self.slabs.each_ref().map(Vec::as_slice),
+            planes,
+            first_nodes: &self.first_nodes,
+            first_pieces: &self.first_pieces,
+            nodes: &self.nodes,
+        }
+    }
+
     fn nodes_of(&self, cell: usize) -> std::ops::Range<usize> {
         self.first_nodes[cell] as usize..self.first_nodes[cell + 1] as usize
     }
@@ -102,7 +129,8 @@ impl BspGrid {
             let (nodes, pieces) = (self.nodes_of(*cell), self.pieces_of(*cell));
             let own_places = places.split_off_mut(..nodes.len()).unwrap_or_default();
             let own_order = order.split_off_mut(..pieces.len()).unwrap_or_default();
-            rank(&self.nodes[nodes], is_before, pieces.start as u32, own_places, own_order);
+            let before = |triangle: usize| is_before[triangle] != 0;
+            rank(&self.nodes[nodes], before, pieces.start as u32, own_places, own_order);
         }
     }
 }

@@ -277,6 +277,30 @@ typedef struct {
 } Finding;
 
 typedef struct {
+    uint triangle;
+    uint own;
+    uint front;
+    uint back;
+    uint to_back;
+} BspNode;
+
+typedef struct {
+    int low[3];
+    int high[3];
+    int offset_low;
+    int offset_high;
+} BspPlane;
+
+typedef struct {
+    uint planes;
+    uint cells;
+    uint slabs[3];
+    uint eye_slabs[3];
+    int eye[3];
+    uint zero;
+} BspFrame;
+
+typedef struct {
     float weight;
     int column;
     int row;

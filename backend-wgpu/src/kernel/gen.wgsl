@@ -276,6 +276,30 @@ struct Finding {
     distance: f32,
 }
 
+struct BspNode {
+    triangle: u32,
+    own: u32,
+    front: u32,
+    back: u32,
+    to_back: u32,
+}
+
+struct BspPlane {
+    low: array<i32, 3>,
+    high: array<i32, 3>,
+    offset_low: i32,
+    offset_high: i32,
+}
+
+struct BspFrame {
+    planes: u32,
+    cells: u32,
+    slabs: array<u32, 3>,
+    eye_slabs: array<u32, 3>,
+    eye: array<i32, 3>,
+    zero: u32,
+}
+
 struct Tap {
     weight: f32,
     column: i32,

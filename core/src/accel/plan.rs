@@ -215,7 +215,8 @@ pub fn upload<D: Device>(device: &mut D, triangles: &[Triangle]) -> Result<D::Bu
     filled(device, "triangles", triangles)
 }
 
-fn filled<D: Device, T: Shared>(
+/// A new buffer with something in it.
+pub(super) fn filled<D: Device, T: Shared>(
     device: &mut D,
     name: &'static str,
     data: &[T],

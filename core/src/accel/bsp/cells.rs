@@ -1,15 +1,41 @@
 //! Cells of a uniform grid, and in which order an eye sees them.
 
+use super::exact::each;
 use super::lattice::Point;
 use super::plane::Plane;
+use crate::abi::BspFrame;
 
-/// Slabs of cells along one axis: slab `k` holds coordinates above `ends[k - 1]`, up to `ends[k]`.
+/// The place of a slab of cells along one axis, far to near, and in turns the slab at a place: slab `k` holds coordinates
+/// above `ends[k - 1]`, up to `ends[k]`. Those before the eye's come as they are, then the others from the last one to it.
 ///
 /// Slab by slab, those far from the eye first, first along x, then y, then z, is itself an exact order: any two cells are
 /// apart by one of these planes.
-pub fn far_to_near(slabs: u32, eye_slab: u32) -> impl Iterator<Item = u32> + Clone {
-    let near = if eye_slab < slabs { Some(eye_slab) } else { None };
-    (0..eye_slab.min(slabs)).chain((eye_slab.saturating_add(1)..slabs).rev()).chain(near)
+#[inline(always)]
+#[must_use]
+pub const fn far_to_near(slabs: u32, eye_slab: u32, slab: u32) -> u32 {
+    if slab < eye_slab { slab } else { eye_slab + (slabs - 1 - slab) }
+}
+
+/// The place of a cell, far to near. Cells are numbered along z first, then y, then x.
+#[inline(always)]
+#[must_use]
+pub const fn place_of(frame: &BspFrame, cell: u32) -> u32 {
+    let ([slabs, rows, columns], [x, y, z]) = (frame.slabs, frame.eye_slabs);
+    let row = cell / columns;
+    let x = far_to_near(slabs, x, row / rows);
+    let y = far_to_near(rows, y, row % rows);
+    (x * rows + y) * columns + far_to_near(columns, z, cell % columns)
+}
+
+impl BspFrame {
+    /// Of an eye before a grid whose slabs have these ends, and of so many planes.
+    #[must_use]
+    pub fn new(ends: [&[i32]; 3], planes: u32, eye: [i64; 3]) -> Self {
+        let slabs = each(|axis| ends[axis].len() as u32);
+        let eye_slabs = each(|axis| slab_of(ends[axis], eye[axis]));
+        let cells = slabs.iter().product();
+        Self { planes, cells, slabs, eye_slabs, eye: eye.map(|c| c as i32), zero: 0 }
+    }
 }
 
 /// The slab that a coordinate is in; as many as there are slabs if it is beyond the last one. What is before the first slab

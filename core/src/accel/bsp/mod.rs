@@ -14,6 +14,7 @@
 //! | which is best for few pieces, exactly | `table.rs` |
 //! | cells, and in which order an eye sees them | `cells.rs` |
 //! | nodes of a tree, and their pieces' places in the order | `rank.rs` |
+//! | the same order in a device's memory | `plan.rs` |
 //! | whether the eye sees a piece along a ray | `sight.rs` |
 //! | from a camera to rays, from a hit to a sample | `show.rs` |
 //!
@@ -24,6 +25,7 @@ pub mod cells;
 pub mod choose;
 pub mod exact;
 pub mod lattice;
+pub mod plan;
 pub mod plane;
 pub mod polygon;
 pub mod rank;

@@ -5,6 +5,7 @@
 
 use super::exact::each;
 use super::lattice::Point;
+use crate::abi::BspPlane;
 
 /// Points `p` with `normal · p = offset`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,14 +56,48 @@ impl Plane {
         [self.value(a), self.value(b), self.value(c)]
     }
 
-    /// Is an eye before the plane?
+    /// Is an eye before the plane? It is less than 2²⁹ from the lattice's origin along each axis.
     #[inline(always)]
     #[must_use]
     pub const fn is_before(&self, eye: [i64; 3]) -> bool {
-        let [x, y, z] = self.normal;
-        x as i128 * eye[0] as i128 + y as i128 * eye[1] as i128 + z as i128 * eye[2] as i128
-            > self.offset as i128
+        self.words().is_before([eye[0] as i32, eye[1] as i32, eye[2] as i32])
     }
+
+    /// The same in words, for devices.
+    #[inline(always)]
+    #[must_use]
+    pub const fn words(&self) -> BspPlane {
+        let ([x, y, z], [offset_low, offset_high]) = (self.normal, words(self.offset));
+        let ([x, x_high], [y, y_high], [z, z_high]) = (words(x), words(y), words(z));
+        BspPlane { low: [x, y, z], high: [x_high, y_high, z_high], offset_low, offset_high }
+    }
+}
+
+/// Lower and upper word; the lower one has a sign, so that products of both are alike. Nothing here is near 2⁶³: offsets are
+/// below (√3 · 2²⁰)³.
+#[inline(always)]
+const fn words(number: i64) -> [i32; 2] {
+    let low = number as i32;
+    [low, ((number - low as i64) >> 32) as i32]
+}
+
+impl BspPlane {
+    /// Is an eye before the plane?
+    ///
+    /// An eye is below 2²⁹, so products of lower words are at most 2⁶⁰ and their sum fits 64 bits; upper words of normals are
+    /// at most 2⁹. The sum's upper half then goes to the upper words.
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_before(&self, eye: [i32; 3]) -> bool {
+        let low = sum_of(self.low, eye) - self.offset_low as i64;
+        let high = sum_of(self.high, eye) - self.offset_high as i64 + (low >> 32);
+        high > 0 || (high == 0 && low as u32 != 0)
+    }
+}
+
+#[inline(always)]
+const fn sum_of(words: [i32; 3], eye: [i32; 3]) -> i64 {
+    words[0] as i64 * eye[0] as i64 + words[1] as i64 * eye[1] as i64 + words[2] as i64 * eye[2] as i64
 }
 
 #[inline(always)]
