@@ -11,7 +11,6 @@ use micropoly_core::render::FramePlan;
 use micropoly_core::schedule::Scheduler;
 use serde::Serialize;
 
-use crate::backend::Backend;
 use crate::devices::{DeviceEntry, Job, with_device};
 use crate::error::{Error, Result};
 use crate::render::{Batch, RenderOptions, sizes_for};
@@ -199,20 +198,4 @@ pub fn spike(rows: &[Row]) -> Option<&Row> {
     let of_frames =
         rows.iter().filter(|row| row.frame.is_some() && row.scheduler == Scheduler::Breadth.name());
     of_frames.max_by_key(|row| (row.memory, row.max, row.processed))
-}
-
-/// The devices that a choice of backend means: all, or those of one.
-///
-/// # Errors
-/// [`Error::Backend`] if the one that was named has none.
-pub fn devices(only: Option<Backend>) -> Result<Vec<DeviceEntry>> {
-    match only {
-        Some(backend) => {
-            crate::devices::devices_of(backend).map_err(|missing| backend.unavailable(missing.why))
-        }
-        None => Ok(Backend::ALL
-            .into_iter()
-            .flat_map(|backend| crate::devices::devices_of(backend).unwrap_or_default())
-            .collect()),
-    }
 }

@@ -27,6 +27,12 @@ impl DeviceEntry {
         self.name.to_lowercase().contains(&part.to_lowercase())
     }
 
+    /// Does a user mean it by a number within its backend or a part of a name?
+    #[must_use]
+    pub fn is_meant(&self, wanted: &str) -> bool {
+        wanted.parse::<usize>().map_or_else(|_| self.is_called(wanted), |number| self.index == number)
+    }
+
     /// It could not be opened.
     #[cfg(any(feature = "cpu", feature = "wgpu", feature = "ocl", test))]
     pub(crate) fn refused(&self, why: impl ToString) -> Error {
@@ -138,25 +144,39 @@ fn ocl_entry((index, info): (usize, micropoly_backend_ocl::DeviceInfo)) -> Devic
     }
 }
 
+/// All devices of one backend.
+///
+/// # Errors
+/// [`Error::Backend`] if there are none.
+pub fn all_of(backend: Backend) -> Result<Vec<DeviceEntry>> {
+    devices_of(backend).map_err(|missing| backend.unavailable(missing.why))
+}
+
 /// The device of a backend that a user means by a number or a part of a name.
 ///
 /// # Errors
 /// [`Error::Backend`] if the backend has no device, [`Error::Scene`] if none of them is meant.
 pub fn find(backend: Backend, wanted: Option<&str>) -> Result<DeviceEntry> {
-    let all = devices_of(backend).map_err(|missing| backend.unavailable(missing.why))?;
-    let Some(wanted) = wanted else { return Ok(all.into_iter().next().expect("not empty")) };
-    let number = wanted.parse::<usize>().ok();
-    let meant = |entry: &&DeviceEntry| match number {
-        Some(number) => entry.index == number,
-        None => entry.is_called(wanted),
-    };
-    all.iter().find(meant).cloned().ok_or_else(|| {
-        let names: Vec<String> = all.iter().map(|entry| format!("{} {}", entry.index, entry.name)).collect();
-        Error::scene(
-            format!("backend {} has no device `{wanted}`", backend.name()),
+    let meant = meant(all_of(backend)?, wanted)?;
+    Ok(meant.into_iter().next().expect("there is one"))
+}
+
+/// Those of some devices that a user means by a number or a part of a name; all of them without one.
+///
+/// # Errors
+/// [`Error::Scene`] if none of them is meant.
+pub fn meant(devices: Vec<DeviceEntry>, wanted: Option<&str>) -> Result<Vec<DeviceEntry>> {
+    let Some(wanted) = wanted else { return Ok(devices) };
+    let (meant, others): (Vec<_>, Vec<_>) = devices.into_iter().partition(|entry| entry.is_meant(wanted));
+    if meant.is_empty() {
+        let name = |entry: &DeviceEntry| format!("{} {} {}", entry.backend.name(), entry.index, entry.name);
+        let names: Vec<String> = others.iter().map(name).collect();
+        return Err(Error::scene(
+            format!("no device is meant by `{wanted}`"),
             format!("choose one of: {}", names.join(", ")),
-        )
-    })
+        ));
+    }
+    Ok(meant)
 }
 
 /// Opens a device and does something with it; `threads` matter to the CPU only.

@@ -645,6 +645,11 @@ fn sorting_a_mesh_says_what_it_takes() {
     }
     let output = micropoly(&["accel", "sort", "scenes/ball.obj", "--device", "0"]);
     assert_eq!(output.status.code(), Some(2), "a device of no backend");
+    for what in ["build", "query", "sort"] {
+        let output = micropoly(&["accel", what, "scenes/ball.obj", "--backend", "cpu", "--device", "7"]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && said.contains("no device is meant by `7`"), "{said}");
+    }
     let output = micropoly(&["accel", "sort", "scenes/teapot.bpt"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("these are Bézier patches"));
     let folder = tempfile::tempdir().expect("a folder");

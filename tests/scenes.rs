@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use micropoly::bench::{Plan, Views, devices, spike};
+use micropoly::bench::{Plan, Views, spike};
 use micropoly::core::camera::{Camera, Light, Material};
+use micropoly::devices::all_of;
 use micropoly::generate::{Generator, generate};
 use micropoly::{
     Backend, BezierPatch, Blur, FrameOptions, Image, RenderOptions, Rendering, Scene, SceneObject, Scheduler,
@@ -209,7 +210,7 @@ fn the_flight_through_the_city_begins_at_its_camera_and_has_its_spike_at_frame_3
     let city = Scene::load("scenes/city.toml").expect("a scene");
     assert_eq!(city.camera_at(0.0).expect("a camera"), city.camera);
     let plan = Plan {
-        devices: devices(Some(Backend::Cpu)).expect("a CPU"),
+        devices: all_of(Backend::Cpu).expect("a CPU"),
         schedulers: vec![Scheduler::Breadth],
         batches: Vec::new(),
         views: Views::Path(7),

@@ -6,14 +6,14 @@ use bytesize::ByteSize;
 use clap::{Args, Subcommand, value_parser};
 use micropoly::accel::on_device::{Questions, Times, on_device};
 use micropoly::accel::{boxes, build, frustum, query, rays, triangles};
-use micropoly::bench::devices;
 use micropoly::core::accel::morton::Precision;
-use micropoly::devices::DeviceEntry;
+use micropoly::devices::{DeviceEntry, meant};
 use micropoly::tess::TessSource;
 use micropoly::{Error, Result};
 
 use super::args::{Compared, resolution};
 use super::bsp::{self, SortArguments};
+use super::devices::compared;
 
 /// Frusta that devices are asked about at once: what the camera sees, narrower and narrower.
 const FRUSTA: u32 = 4;
@@ -109,14 +109,7 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
 impl OtherDevices {
     /// The devices that are meant, if a backend is given.
     pub(super) fn meant(&self) -> Result<Option<Vec<DeviceEntry>>> {
-        let Some(backend) = self.backend else { return Ok(None) };
-        let all = devices(backend.only())?;
-        Ok(Some(all.into_iter().filter(|entry| self.means(entry)).collect()))
-    }
-
-    fn means(&self, entry: &DeviceEntry) -> bool {
-        let number = |text: &String| text.parse() == Ok(entry.index);
-        self.device.as_ref().is_none_or(|text| number(text) || entry.is_called(text))
+        self.backend.map(|backend| meant(compared(backend)?, self.device.as_deref())).transpose()
     }
 }
 

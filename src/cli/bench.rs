@@ -4,16 +4,17 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use bytesize::ByteSize;
-use micropoly::bench::{Plan, Row, Views, devices, spike};
+use micropoly::bench::{Plan, Row, Views, spike};
 use micropoly::{Error, Result, Scene, scene_file};
 
 use super::args::BenchArguments;
+use super::devices::compared;
 use super::plot;
 use super::render::write_json;
 
 pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
     let plan = Plan {
-        devices: devices(arguments.backend.only())?,
+        devices: compared(arguments.backend)?,
         schedulers: arguments.chosen.iter().map(|&choice| choice.into()).collect(),
         batches: arguments.batches(),
         views: arguments.views(),

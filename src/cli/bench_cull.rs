@@ -1,17 +1,18 @@
 //! `micropoly bench --culling`: what culling of whole patches saves.
 
-use micropoly::bench::devices;
 use micropoly::culling::{Row, measure};
 use micropoly::{Result, Scene};
 
 use super::args::BenchArguments;
 use super::bench::short;
+use super::devices::compared;
 use super::render::write_json;
 
 /// Without a scene.
 const CITY: &str = "scenes/city.toml";
 
 pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
+    let entries = compared(arguments.backend)?;
     say!(
         "{:<10} {:<8} {:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6} {:>6}",
         "scene",
@@ -25,7 +26,6 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
         "fewer",
         "faster"
     );
-    let entries = devices(arguments.backend.only())?;
     let options = arguments.frame.options();
     let mut rows = Vec::new();
     let city = [CITY.into()];

@@ -1,18 +1,18 @@
 //! `micropoly bench --raster`: the table of Eisenacher & Loop 2010, Table 1.
 
-use micropoly::bench::devices;
 use micropoly::rasterising::{Row, measure};
 use micropoly::{Result, Scene, scene_file};
 
 use super::args::BenchArguments;
 use super::bench::short;
 use super::conform::teapot;
+use super::devices::compared;
 use super::render::write_json;
 
 pub(crate) fn run(arguments: &BenchArguments) -> Result<()> {
+    let entries = compared(arguments.backend)?;
     say!("milliseconds; setup is part of sampling, and steps are those of all threads together");
     say!("{}", head());
-    let entries = devices(arguments.backend.only())?;
     let options = arguments.frame.options();
     let mut rows = Vec::new();
     for scene in scenes(arguments)? {

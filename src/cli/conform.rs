@@ -4,7 +4,7 @@ use std::path::Path;
 
 use micropoly::core::backend::Device;
 use micropoly::core::stage::Stage;
-use micropoly::devices::{DeviceEntry, Job, devices_of, with_device};
+use micropoly::devices::{DeviceEntry, Job, with_device};
 use micropoly::looks::Look;
 use micropoly::{
     Backend, Blur, Error, FrameOptions, Image, Lens, Result, Scene, Scheduler, Shape, bpt, scene_file,
@@ -15,7 +15,8 @@ use micropoly_conformance::report::{
 use micropoly_conformance::{Case, Outcome, Schedule, corpus};
 use serde_json::Value;
 
-use super::args::{Compared, ConformArguments};
+use super::args::ConformArguments;
+use super::devices::compared;
 use super::render::write_json;
 
 /// Image sizes of every scene.
@@ -47,23 +48,6 @@ pub(crate) fn run(arguments: &ConformArguments) -> Result<()> {
         return Err(Error::scene(problem, "see the first difference of each above"));
     }
     Ok(())
-}
-
-/// The devices that are to be compared.
-fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
-    let only = choice.only();
-    let mut all = Vec::new();
-    for backend in Backend::ALL {
-        if only.is_some_and(|only| only != backend) {
-            continue;
-        }
-        match devices_of(backend) {
-            Ok(entries) => all.extend(entries),
-            Err(_) if only.is_some() => return Err(backend.candidates(None).expect_err("there is none")),
-            Err(missing) => say!("{}: {}", backend.name(), missing.why),
-        }
-    }
-    Ok(all)
 }
 
 fn built_in(name: &str, text: &str) -> Result<Scene> {

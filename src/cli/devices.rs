@@ -1,7 +1,9 @@
-//! `micropoly devices`.
+//! `micropoly devices`, and the devices that `--backend` means.
 
-use micropoly::devices::devices_of;
+use micropoly::devices::{DeviceEntry, all_of, devices_of};
 use micropoly::{Backend, Result};
+
+use super::args::Compared;
 
 pub(crate) fn run() -> Result<()> {
     for backend in Backend::ALL {
@@ -18,4 +20,19 @@ pub(crate) fn run() -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// The devices of one backend or of all; says which backends have none.
+pub(super) fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
+    if let Some(backend) = choice.only() {
+        return all_of(backend);
+    }
+    let mut all = Vec::new();
+    for backend in Backend::ALL {
+        match devices_of(backend) {
+            Ok(entries) => all.extend(entries),
+            Err(missing) => say!("{}: {}", backend.name(), missing.why),
+        }
+    }
+    Ok(all)
 }

@@ -1,17 +1,20 @@
 //! The order of all pieces for an eye: cells, then the trees in them, all at once.
 
+#![allow(unsafe_code)] // only what `multiversion` generates: the same function for several instruction sets
+
 use micropoly_core::abi::{BspFrame, BspPlane};
 use micropoly_core::accel::bsp::cells::far_to_near;
 use micropoly_core::accel::bsp::plan::BspLists;
 use micropoly_core::accel::bsp::plane::Plane;
 use micropoly_core::accel::bsp::rank::rank;
+use multiversion::multiversion;
 use rayon::prelude::*;
 
 use super::BspGrid;
 use crate::device::CpuDevice;
 
 /// Planes that one thread works off in a row.
-const PLANES_AT_ONCE: usize = 1 << 14;
+const PLANES_AT_ONCE: usize = 1 << 12;
 /// Cells that one thread works off in a row.
 const CELLS_AT_ONCE: usize = 256;
 
@@ -44,15 +47,20 @@ fn sort(grid: &BspGrid, eye: [i64; 3], order: &mut BspOrder) {
     pieces.resize(grid.pieces.len(), 0);
     places.resize(grid.nodes.len(), 0);
     is_before.resize(grid.planes.len(), 0);
-    is_before
-        .par_iter_mut()
-        .zip(&grid.planes)
-        .with_min_len(PLANES_AT_ONCE)
-        .for_each(|(is_before, plane)| *is_before = u8::from(plane.is_before(eye)));
+    let at_once = is_before.par_chunks_mut(PLANES_AT_ONCE).zip(grid.planes.par_chunks(PLANES_AT_ONCE));
+    let sides = || at_once.for_each(|(is_before, planes)| note_sides(planes, eye, is_before));
+    let (cells, ()) = rayon::join(|| far_to_near_cells(grid, eye), sides);
     let is_before = &is_before[..];
-    let cells = far_to_near_cells(grid, eye);
     let works = shared(grid, &cells, places, pieces);
     works.into_par_iter().for_each(|work| grid.rank(work, is_before));
+}
+
+/// Notes which planes an eye is before.
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512vl+avx512dq", "x86_64+avx2"))]
+fn note_sides(planes: &[Plane], eye: [i64; 3], is_before: &mut [u8]) {
+    for (is_before, plane) in is_before.iter_mut().zip(planes) {
+        *is_before = u8::from(plane.is_before(eye));
+    }
 }
 
 /// Cells with something in them, far to near.
