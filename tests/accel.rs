@@ -1,11 +1,11 @@
 //! The linear hierarchy on the CPU: the tree of core, whoever builds it, and what it finds.
 
+use micropoly::accel::mesh::TriangleMesh;
 use micropoly::accel::{boxes, frustum, query};
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bounds::Bounds;
 use micropoly::core::accel::morton::{Grid, Precision};
 use micropoly::core::accel::tree::{EMPTY, Node, fit, inner, link, validate};
-use micropoly::tess::TessSource;
 use micropoly_backend_cpu::{CpuDevice, Lbvh};
 
 /// Node by node, as a device would build it.
@@ -55,8 +55,8 @@ fn all_threads_build_the_tree_that_one_does_node_by_node() {
 
 #[test]
 fn a_camera_sees_all_of_a_mesh_that_it_stands_around_and_less_through_a_slit() {
-    let mesh = TessSource::of_mesh(&torus_cage(2000, Layout::Triangles)).expect("sound");
-    let boxes = boxes(&mesh);
+    let mesh = TriangleMesh::of_mesh(&torus_cage(2000, Layout::Triangles)).expect("sound");
+    let boxes = boxes(&mesh.triangles);
     let tree = CpuDevice::new(0).expect("threads").build_lbvh(&boxes, Precision::Bits30);
     let camera = mesh.camera().expect("it is near");
     let seen =

@@ -4,10 +4,10 @@ use std::cmp::Ordering;
 use std::path::Path;
 
 use glam::DVec3;
+use micropoly::accel::mesh::TriangleMesh;
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bsp::lattice::Point;
 use micropoly::core::accel::bsp::sight::{Sight, View};
-use micropoly::tess::TessSource;
 use micropoly_backend_cpu::{BspError, BspGrid, BspOptions, BspOrder, CpuDevice};
 use num_bigint::{BigInt, Sign};
 
@@ -247,9 +247,9 @@ fn what_lies_in_one_plane_is_in_order_of_its_numbers() {
 
 #[test]
 fn closed_meshes_are_in_order() {
-    let mesh = TessSource::of_mesh(&torus_cage(600, Layout::Triangles)).expect("sound");
+    let mesh = TriangleMesh::of_mesh(&torus_cage(600, Layout::Triangles)).expect("sound");
     for grid in [1, 6] {
-        let (compared, met) = check("torus", &triangles(&mesh), &exact(grid), 6);
+        let (compared, met) = check("torus", &mesh.triangles, &exact(grid), 6);
         assert!(compared > 500 && met > compared, "{compared} {met}");
     }
 }
@@ -262,14 +262,9 @@ fn the_bunny_is_in_order() {
         eprintln!("skipped: the_bunny_is_in_order, as there is no shared/data/models/stanford-bunny.obj");
         return;
     }
-    let mesh = TessSource::load(&path).expect("it can be read");
-    let (compared, met) = check("bunny", &triangles(&mesh), &BspOptions::default(), 2);
+    let mesh = TriangleMesh::load(&path).expect("it can be read");
+    let (compared, met) = check("bunny", &mesh.triangles, &BspOptions::default(), 2);
     assert!(compared > 150 && met > compared, "{compared} {met}");
-}
-
-fn triangles(mesh: &TessSource) -> Vec<Triangle> {
-    let corners = |points: &[f32]| *points[..9].as_chunks::<3>().0.first_chunk().expect("three corners");
-    mesh.patches.iter().map(|patch| corners(&patch.points)).collect()
 }
 
 #[test]

@@ -23,6 +23,7 @@ fn reciprocals_and_roots_are_accurate() {
     for x in numbers(1.0e-37, 1.0e37) {
         let exact = f64::from(x);
         assert!(relative_error(recip(x), 1.0 / exact) < 2.0 * ulp, "recip({x:e})");
+        assert_eq!(recip(-x), -recip(x), "{x:e}");
         assert!(relative_error(rsqrt(x), 1.0 / exact.sqrt()) < 3.0 * ulp, "rsqrt({x:e})");
         assert!(relative_error(sqrt(x), exact.sqrt()) < 4.0 * ulp, "sqrt({x:e})");
     }

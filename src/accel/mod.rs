@@ -2,12 +2,13 @@
 //! [`micropoly_core::accel`], on the CPU and on any other device.
 
 pub mod bench;
+pub mod mesh;
 pub mod on_device;
 
 use std::time::Instant;
 
 use glam::{DVec3, Vec3};
-use micropoly_core::abi::{Probe, TessPatch, Triangle};
+use micropoly_core::abi::Probe;
 use micropoly_core::accel::bounds::Bounds;
 use micropoly_core::accel::morton::Precision;
 use micropoly_core::accel::query::{Plane, in_frustum, is_visible};
@@ -16,7 +17,6 @@ use serde::Serialize;
 
 use crate::Camera;
 use crate::error::{Error, Result};
-use crate::tess::TessSource;
 
 /// A tree as it was built.
 #[derive(Clone, Debug, Serialize)]
@@ -46,17 +46,10 @@ pub struct Seen {
     pub milliseconds_box_by_box: f64,
 }
 
-/// Triangles of a mesh.
+/// Boxes of triangles.
 #[must_use]
-pub fn triangles(mesh: &TessSource) -> Vec<Triangle> {
-    let corners = |patch: &TessPatch| std::array::from_fn(|k| patch.points[k]);
-    mesh.patches.iter().map(|patch| Triangle { corners: corners(patch) }).collect()
-}
-
-/// Their boxes.
-#[must_use]
-pub fn boxes(mesh: &TessSource) -> Vec<Bounds> {
-    triangles(mesh).iter().map(|triangle| Bounds::of(&triangle.points())).collect()
+pub fn boxes(triangles: &[[[f32; 3]; 3]]) -> Vec<Bounds> {
+    triangles.iter().map(|triangle| Bounds::of(triangle)).collect()
 }
 
 /// Rays from a camera's eye through an image of so many columns and rows; and a point on each, half as far away as the origin.
@@ -176,9 +169,15 @@ pub fn sah(nodes: &[Node]) -> f64 {
 /// Areas of all boxes, in shares of the first's.
 fn areas(mut boxes: impl Iterator<Item = Bounds>) -> f64 {
     let Some(root) = boxes.next() else { return 0.0 };
-    let below: f64 = boxes.map(|bounds| f64::from(bounds.half_area())).sum();
-    let root = f64::from(root.half_area());
+    let below: f64 = boxes.map(|bounds| half_area(&bounds)).sum();
+    let root = half_area(&root);
     if root > 0.0 { 1.0 + below / root } else { 0.0 }
+}
+
+/// As [`Bounds::half_area`]; no box is so large or so small that this has no room for it.
+fn half_area(bounds: &Bounds) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|axis| f64::from(bounds.high[axis]) - f64::from(bounds.low[axis]));
+    x * y + y * z + z * x
 }
 
 fn depth(nodes: &[Node]) -> usize {

@@ -2,6 +2,7 @@
 
 mod naive;
 pub mod on_device;
+pub mod pieces;
 
 use std::time::Instant;
 
@@ -10,8 +11,8 @@ use rdst::{RadixKey, RadixSort};
 use serde::Serialize;
 
 use crate::Camera;
+use crate::accel::mesh::TriangleMesh;
 use crate::error::{Error, Result};
-use crate::tess::TessSource;
 
 /// Corners of a triangle.
 pub type Triangle = [[f32; 3]; 3];
@@ -59,13 +60,6 @@ pub struct Row {
     pub cut: Cut,
     /// Sorting its pieces for one view.
     pub sorted: Sorted,
-}
-
-/// The triangles of a mesh.
-#[must_use]
-pub fn triangles(mesh: &TessSource) -> Vec<Triangle> {
-    let corner = |points: &[f32], k: usize| [points[3 * k], points[3 * k + 1], points[3 * k + 2]];
-    mesh.patches.iter().map(|patch| [0, 1, 2].map(|k| corner(&patch.points, k))).collect()
 }
 
 /// Cuts triangles `repeat` times, on so many threads (0 = one a core).
@@ -216,20 +210,25 @@ pub struct Table {
 ///
 /// # Errors
 /// As [`cut`] and [`sort`].
-pub fn measure(name: &str, mesh: &TessSource, repeat: u32, mut progress: impl FnMut(&Row)) -> Result<Table> {
-    let (triangles, camera) = (triangles(mesh), mesh.camera()?);
+pub fn measure(
+    name: &str,
+    mesh: &TriangleMesh,
+    repeat: u32,
+    mut progress: impl FnMut(&Row),
+) -> Result<Table> {
+    let (triangles, camera) = (&mesh.triangles, mesh.camera()?);
     let mut rows = Vec::new();
     for tolerance in TOLERANCES {
         for grid in GRIDS {
             let options = BspOptions { grid: Some(grid), tolerance, ..BspOptions::default() };
-            let (grid, cut) = cut(&triangles, &options, 0, 4 * repeat)?;
-            let (_, sorted) = sort(&grid, &triangles, &camera, 10 * repeat)?;
+            let (grid, cut) = cut(triangles, &options, 0, 4 * repeat)?;
+            let (_, sorted) = sort(&grid, triangles, &camera, 10 * repeat)?;
             let row = Row { mesh: name.to_owned(), cut, sorted };
             progress(&row);
             rows.push(row);
         }
     }
-    Ok(Table { rows, naive: naive_tree(&triangles, repeat) })
+    Ok(Table { rows, naive: naive_tree(triangles, repeat) })
 }
 
 fn naive_tree(triangles: &[Triangle], repeat: u32) -> OneTree {

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::{Args, Subcommand, value_parser};
+use micropoly::Result;
+use micropoly::accel::mesh::TriangleMesh;
 use micropoly::accel::on_device::{Questions, Times, on_device};
-use micropoly::accel::{boxes, build, frustum, query, rays, triangles};
+use micropoly::accel::{boxes, build, frustum, query, rays};
+use micropoly::core::abi::Triangle;
 use micropoly::core::accel::morton::Precision;
 use micropoly::devices::{DeviceEntry, meant};
-use micropoly::tess::TessSource;
-use micropoly::{Error, Result};
 
 use super::args::{Compared, resolution};
 use super::bsp::{self, SortArguments};
@@ -75,7 +76,7 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
         What::Query { tree, res } => (tree, Some(*res)),
     };
     let mesh = load(&tree.mesh)?;
-    let boxes = boxes(&mesh);
+    let boxes = boxes(&mesh.triangles);
     let (lbvh, built) = build(&boxes, tree.bits, tree.repeat)?;
     say!("triangles     {}", built.triangles);
     say!("nodes         {}", built.nodes);
@@ -97,7 +98,8 @@ pub(crate) fn run(arguments: &AccelArguments) -> Result<()> {
         say!("box by box    {:.3} ms", seen.milliseconds_box_by_box);
     }
     let Some(others) = tree.others.meant()? else { return Ok(()) };
-    let triangles = triangles(&mesh);
+    let triangles: Vec<Triangle> =
+        mesh.triangles.iter().map(|corners| Triangle { corners: bytemuck::cast(*corners) }).collect();
     say!("{}", head(&questions));
     for entry in others {
         say!("{}", line(&on_device(&entry, (&triangles, &lbvh), tree.bits, &questions, tree.repeat)?));
@@ -131,15 +133,8 @@ fn line(Times { device, build, refit, frusta, rays, nearest }: &Times) -> String
 }
 
 /// Reads a mesh of triangles, and says what of it is left out.
-pub(super) fn load(path: &Path) -> Result<TessSource> {
-    let mesh = TessSource::load(path)?;
-    if mesh.is_bezier {
-        return Err(Error::Content {
-            path: path.to_owned(),
-            problem: "trees are built over triangles, and these are Bézier patches".to_owned(),
-            remedy: "give an .obj file, or tessellate it first".to_owned(),
-        });
-    }
+pub(super) fn load(path: &Path) -> Result<TriangleMesh> {
+    let mesh = TriangleMesh::load(path)?;
     mesh.notes.iter().for_each(|note| eprintln!("note: {note}"));
     Ok(mesh)
 }

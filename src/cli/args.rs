@@ -877,7 +877,7 @@ fn frames(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
-fn mesh_path(text: &str) -> Result<(PathBuf, Option<Format>), String> {
+pub(super) fn mesh_path(text: &str) -> Result<(PathBuf, Option<Format>), String> {
     let path = PathBuf::from(text);
     match Format::of(&path) {
         None if text != "none" => Err("choose a name that ends in .obj, .ply or .glb, or none".into()),

@@ -11,7 +11,7 @@ use super::args::BenchArguments;
 use super::render::write_json;
 
 pub(crate) fn run(mesh: &Path, arguments: &BenchArguments) -> Result<()> {
-    let boxes = boxes(&load(mesh)?);
+    let boxes = boxes(&load(mesh)?.triangles);
     say!(
         "{} triangles; medians of {} runs; SAH: areas of all boxes over the root's",
         boxes.len(),

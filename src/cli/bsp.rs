@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::{Args, value_parser};
+use micropoly::accel::mesh::TriangleMesh;
 use micropoly::bsp::on_device::{Times, on_device};
-use micropoly::bsp::{OneTree, Row, Table, cut, eye, measure, sort, triangles};
+use micropoly::bsp::{OneTree, Row, Table, cut, eye, measure, pieces, sort};
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bsp::polygon::MOST_SLABS;
-use micropoly::tess::TessSource;
+use micropoly::mesh::Format;
 use micropoly::{Error, Result};
 use micropoly_backend_cpu::BspOptions;
 
 use super::accel::{OtherDevices, load};
-use super::args::{BenchArguments, from_zero};
+use super::args::{BenchArguments, from_zero, mesh_path};
 use super::render::write_json;
 
 #[derive(Debug, Args)]
@@ -30,6 +31,9 @@ pub(crate) struct SortArguments {
     #[arg(long, value_name = "N", default_value_t = BspOptions::default().candidates,
           value_parser = value_parser!(u32).range(1..=1024))]
     candidates: u32,
+    /// Write the pieces, far to near, as a mesh (.obj, .ply or .glb); or `none`.
+    #[arg(short, long, value_name = "FILE", value_parser = mesh_path, default_value = "none")]
+    output: (PathBuf, Option<Format>),
     #[command(flatten)]
     others: OtherDevices,
     /// Runs of each; the shortest counts.
@@ -40,16 +44,15 @@ pub(crate) struct SortArguments {
 /// Sorts for the camera that renders the mesh.
 pub(crate) fn run(arguments: &SortArguments) -> Result<()> {
     let mesh = load(&arguments.mesh)?;
-    let triangles = triangles(&mesh);
     let options = BspOptions {
         grid: arguments.bsp_grid,
         tolerance: arguments.bsp_tolerance,
         candidates: arguments.candidates,
         ..BspOptions::default()
     };
-    let (grid, cut) = cut(&triangles, &options, 0, arguments.repeat)?;
+    let (grid, cut) = cut(&mesh.triangles, &options, 0, arguments.repeat)?;
     let camera = mesh.camera()?;
-    let (order, sorted) = sort(&grid, &triangles, &camera, arguments.repeat)?;
+    let (order, sorted) = sort(&grid, &mesh.triangles, &camera, arguments.repeat)?;
     let [x, y, z] = cut.grid;
     say!("triangles     {}, {} of them without area", cut.triangles, cut.degenerate);
     say!("grid          {x}x{y}x{z}, growth {:.2}", cut.grid_growth);
@@ -59,6 +62,9 @@ pub(crate) fn run(arguments: &SortArguments) -> Result<()> {
     say!("build         {:.2} ms", cut.milliseconds);
     say!("sort          {:.3} ms", sorted.milliseconds);
     say!("by centroids  {:.3} ms, a radix sort, not exact", sorted.radix_milliseconds);
+    if let (path, Some(format)) = &arguments.output {
+        pieces::mesh(&grid, &order.pieces).save(path, *format)?;
+    }
     let Some(others) = arguments.others.meant()? else { return Ok(()) };
     let eye = eye(&grid, &camera)?;
     say!("{:<40} {:>9} {:>9} {:>9}", "ms on device", "upload", "sort", "read");
@@ -124,9 +130,9 @@ fn line(Row { cut, sorted, .. }: &Row) -> String {
 }
 
 /// The meshes that a user names, or a built-in one.
-fn meshes(files: &[PathBuf]) -> Result<Vec<(String, TessSource)>> {
+fn meshes(files: &[PathBuf]) -> Result<Vec<(String, TriangleMesh)>> {
     if files.is_empty() {
-        let torus = TessSource::of_mesh(&torus_cage(70_000, Layout::Triangles));
+        let torus = TriangleMesh::of_mesh(&torus_cage(70_000, Layout::Triangles));
         let torus = torus.map_err(|error| Error::scene(error.to_string(), "report it"))?;
         return Ok(vec![("torus".to_owned(), torus)]);
     }

@@ -13,8 +13,6 @@ void stage_accel_fill(__global const AccelFrame *accel_frame, __global const Nod
         for (uint other = 0u; other < lane; other++) {
             place += are_seen[other];
         }
-        const uint all = (accel_frame->count + SEE_BLOCK - 1u) / SEE_BLOCK;
-        const uint leaf = block % all * SEE_BLOCK + lane;
-        seen[place] = nodes[accel_frame->count - 1u + leaf].first;
+        seen[place] = nodes[accel_frame->count - 1u + leaf_of(accel_frame, block, lane)].first;
     }
 }

@@ -23,10 +23,19 @@ static bool is_seen(uint zero, __global const Frustum *frustum, __global const N
     return true;
 }
 
-// Does a block's frustum see this work-item's leaf?
+static uint blocks(__global const AccelFrame *frame) {
+    return (frame->count + SEE_BLOCK - 1u) / SEE_BLOCK;
+}
+
+// A work-item's leaf.
+static uint leaf_of(__global const AccelFrame *frame, uint block, uint lane) {
+    return block % blocks(frame) * SEE_BLOCK + lane;
+}
+
+// Does a block's frustum see it?
 static bool sees_own(__global const AccelFrame *frame, __global const Node *nodes, __global const Frustum *frusta,
                      uint block, uint lane) {
-    const uint all = (frame->count + SEE_BLOCK - 1u) / SEE_BLOCK;
-    const uint leaf = block % all * SEE_BLOCK + lane;
-    return leaf < frame->count && is_seen(frame->zero, frusta + block / all, nodes + frame->count - 1u + leaf);
+    const uint leaf = leaf_of(frame, block, lane);
+    __global const Frustum *frustum = frusta + block / blocks(frame);
+    return leaf < frame->count && is_seen(frame->zero, frustum, nodes + frame->count - 1u + leaf);
 }

@@ -18,10 +18,7 @@ typedef struct {
 } Search;
 
 static float ray_step(uint zero, float x) {
-    if (abs(x) < RAY_PARALLEL) {
-        return 0.0f;
-    }
-    return x < 0.0f ? neg(recip(neg(x))) : recip(x);
+    return abs(x) < RAY_PARALLEL ? 0.0f : recip(x);
 }
 
 static Search search_of(uint zero, __global const Probe *probe, bool is_ray) {

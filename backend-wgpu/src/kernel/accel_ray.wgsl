@@ -22,9 +22,6 @@ fn ray_step(x: f32) -> f32 {
     if abs(x) < RAY_PARALLEL {
         return 0.0;
     }
-    if x < 0.0 {
-        return neg(recip(neg(x)));
-    }
     return recip(x);
 }
 

@@ -1,7 +1,7 @@
 //! Inputs for the stages of trees: soups of all sizes, with equal codes and places, the smallest and the largest coordinates.
 
 use micropoly_core::abi::{
-    AccelFrame, Bounds, Finding, Frustum, Node, Probe, SORT_BITS, SORT_DIGITS, SortKey, Triangle,
+    AccelFrame, Bounds, Finding, Frustum, Node, Probe, SEE_BLOCK, SORT_BITS, SORT_DIGITS, SortKey, Triangle,
 };
 use micropoly_core::accel::extent::{Extent, bounds as box_of, with};
 use micropoly_core::accel::morton::{Grid, Precision};
@@ -173,7 +173,11 @@ fn frusta(random: &mut fastrand::Rng) -> Vec<Frustum> {
 
 /// What frusta are asked, and how many blocks there are.
 fn asked(random: &mut fastrand::Rng) -> (AccelFrame, Vec<Node>, Vec<Frustum>) {
-    let (boxes, frusta) = (boxes(random, 500), frusta(random));
+    let (mut boxes, frusta) = (boxes(random, 500), frusta(random));
+    let even = boxes.len() / SEE_BLOCK as usize * SEE_BLOCK as usize;
+    if even > 0 && random.bool() {
+        boxes.truncate(even); // no block is short
+    }
     let questions = frusta.len() as u32;
     let counts = questions * query::blocks(boxes.len() as u32);
     let frame = AccelFrame { questions, counts, ..frame(&boxes, Precision::Bits30) };

@@ -86,13 +86,7 @@ impl Ray {
 
 /// 1 / x, or 0 where that is out of range.
 const fn step(x: f32) -> f32 {
-    if abs(x) < PARALLEL {
-        0.0
-    } else if x < 0.0 {
-        neg(recip(neg(x)))
-    } else {
-        recip(x)
-    }
+    if abs(x) < PARALLEL { 0.0 } else { recip(x) }
 }
 
 /// From one coordinate to another, `most` at most.
