@@ -173,19 +173,42 @@ impl Few {
 
     /// Notes the corners' sides of the plane that cuts them.
     fn sign(&mut self, triangle: &[Point; 3], plane: usize, exact: &Plane, is_exact: bool) {
-        let Ring { corners, sides } = &self.piece;
-        self.signs.clear();
         if is_exact {
-            self.signs.extend(sides.iter().map(|sides| sides.of(plane)));
+            self.signs.clear();
+            self.signs.extend(self.piece.sides.iter().map(|sides| sides.of(plane)));
         } else {
-            let rough = Rough::of(exact);
-            let sides = (0..corners.len()).map(|k| side(triangle, corners, k, exact, &rough) as i8);
-            self.signs.extend(sides);
+            self.sign_anew(triangle, exact);
         }
     }
 
+    /// The same of a plane that the table need not have.
+    fn sign_anew(&mut self, triangle: &[Point; 3], plane: &Plane) {
+        let Self { piece: Ring { corners, .. }, signs, .. } = self;
+        let rough = Rough::of(plane);
+        signs.clear();
+        signs.extend((0..corners.len()).map(|k| side(triangle, corners, k, plane, &rough) as i8));
+    }
+
+    /// Cuts off what is beyond a slab of what was taken out.
+    fn clip(&mut self, triangle: &[Point; 3], plane: &Plane, cut: Cut, asked: u64, is_exact: bool) {
+        self.sign_anew(triangle, plane);
+        self.split(triangle, cut.cutter(), plane, asked, is_exact);
+        std::mem::swap(&mut self.piece, &mut self.halves[usize::from(cut.keeps_back())]);
+    }
+
+    /// Puts a half of what was cut into a slot.
+    fn put_half(&mut self, half: usize, slot: usize, triangle: u32, others: u64, corners: &mut Vec<Corner>) {
+        let Ring { corners: own, sides } = &self.halves[half];
+        let (first, count) = (corners.len() as u32, own.len() as u32);
+        self.parts[slot] = Part { triangle, first, count, slabs: [Cut::NONE; 3] };
+        corners.extend_from_slice(own);
+        self.sides.extend_from_slice(sides);
+        let all = sides.iter().fold(Sides::default(), |all, sides| all.and(*sides));
+        put(&mut self.table, slot, all.only(others));
+    }
+
     /// Cuts what was taken out; the sides of new corners are only found for planes that are asked for.
-    fn split(&mut self, triangle: &[Point; 3], cutter: u32, plane: &Plane, asked: u64, is_exact: bool) {
+    fn split(&mut self, triangle: &[Point; 3], cutter: Cutter, plane: &Plane, asked: u64, is_exact: bool) {
         let Self { table, piece, signs, halves, .. } = self;
         for half in &mut *halves {
             half.corners.clear();
@@ -194,7 +217,7 @@ impl Few {
         let knife = Knife { triangle, line: plane.values(*triangle), sides: signs };
         // Both halves have each new corner, one after the other.
         let mut last = (usize::MAX, Sides::default());
-        knife.split(&piece.corners, Cutter::Triangle(cutter), |half, corner, origin| {
+        knife.split(&piece.corners, cutter, |half, corner, origin| {
             let sides = match origin {
                 Origin::Corner(k) => piece.sides[k],
                 Origin::Side(k) if k == last.0 => last.1,
@@ -287,11 +310,9 @@ impl Gardener<'_> {
         }
         self.keep_few(own);
         for slot in slots(cut) {
-            let other = self.few.free.trailing_zeros() as usize;
-            self.few.free &= !(1 << other);
-            self.split_few([slot, other], plane, planes);
-            before |= 1 << slot;
-            behind |= 1 << other;
+            let [front, back] = self.split_few(slot, plane, planes);
+            before |= front;
+            behind |= back;
         }
         let node = self.trees.nodes.len();
         let (own, front, back) = (own.count_ones(), before.count_ones(), behind.count_ones());
@@ -316,26 +337,34 @@ impl Gardener<'_> {
         }
     }
 
-    /// Cuts the part in a slot: what is behind the plane goes to another.
-    fn split_few(&mut self, [slot, other]: [usize; 2], plane: usize, planes: u64) {
-        let (few, is_exact) = (&mut self.few, self.rules.tolerance == 0.0);
-        let (part, cutter) = (few.parts[slot], few.cutters[plane]);
+    /// Cuts the part in a slot, and what is behind the plane goes to another; there may be nothing on one side if it reached beyond
+    /// its cell. Gives the slots of what is before the plane, and behind it.
+    fn split_few(&mut self, slot: usize, plane: usize, planes: u64) -> [Set; 2] {
+        let is_exact = self.rules.tolerance == 0.0;
+        let part = self.few.parts[slot];
         let triangle = &self.triangles[part.triangle as usize];
-        let exact = few.table.planes.plane(plane);
-        // What is made lies in both planes.
-        let asked = planes & !(1 << plane | 1 << few.planes[slot]);
+        let others = planes & !(1 << self.few.planes[slot]);
+        let slab_planes = self.slab_planes(part);
+        let few = &mut self.few;
         few.open(slot, triangle, &self.corners);
-        few.sign(triangle, plane, &exact, is_exact);
-        few.split(triangle, cutter, &exact, asked, is_exact);
-        few.planes[other] = few.planes[slot];
-        for (slot, half) in [slot, other].into_iter().zip(&few.halves) {
-            let (first, count) = (self.corners.len() as u32, half.corners.len() as u32);
-            few.parts[slot] = Part { first, count, ..part };
-            self.corners.extend_from_slice(&half.corners);
-            few.sides.extend_from_slice(&half.sides);
-            let all = half.sides.iter().fold(Sides::default(), |all, sides| all.and(*sides));
-            put(&mut few.table, slot, all.only(planes & !(1 << few.planes[slot])));
+        for (plane, cut) in slab_planes {
+            few.clip(triangle, &plane, cut, others, is_exact);
         }
+        let exact = few.table.planes.plane(plane);
+        few.sign(triangle, plane, &exact, is_exact);
+        // What is made lies in both planes.
+        few.split(triangle, Cutter::Triangle(few.cutters[plane]), &exact, others & !(1 << plane), is_exact);
+        let (mut places, mut place) = ([0; 2], slot);
+        for half in 0..2 {
+            if !few.halves[half].corners.is_empty() {
+                few.put_half(half, place, part.triangle, others, &mut self.corners);
+                few.planes[place] = few.planes[slot];
+                places[half] = 1 << place;
+                few.free &= !(1 << place);
+                place = few.free.trailing_zeros() as usize;
+            }
+        }
+        places
     }
 
     /// What is left waits for another table.

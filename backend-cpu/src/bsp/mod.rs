@@ -149,7 +149,7 @@ fn build(triangles: &[[[f32; 3]; 3]], options: &BspOptions) -> Result<BspGrid, B
     let degenerate = planes.par_iter().filter(|plane| plane.is_none()).count();
     let parts = cut::into_cells(&corners, &planes, &slabs);
     let grid_pieces = parts.count();
-    let trees = tree::build(&corners, &planes, &parts, &rules)?;
+    let trees = tree::build(&corners, &planes, &slabs, &parts, &rules)?;
     Ok(BspGrid {
         lattice,
         slabs,

@@ -2,6 +2,7 @@
 
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
+use micropoly_core::accel::bsp::cells::slab_plane;
 use micropoly_core::accel::bsp::choose::{CORNERS, Jury, Side};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
@@ -59,6 +60,7 @@ type Grown = (Trees, Vec<(usize, usize)>);
 pub(super) fn build(
     triangles: &[[Point; 3]],
     planes: &[Plane],
+    slabs: &[Vec<i32>; 3],
     parts: &Parts,
     rules: &Rules,
 ) -> Result<Forest, BspError> {
@@ -66,7 +68,7 @@ pub(super) fn build(
     let grown: Result<Vec<Grown>, BspError> = cells
         .par_chunks(CELLS_AT_ONCE)
         .map_init(
-            || Gardener::new(triangles, planes, rules),
+            || Gardener::new(triangles, planes, slabs, rules),
             |gardener, cells| {
                 let mut ends = Vec::with_capacity(cells.len());
                 gardener.trees = Trees::for_parts(cells.iter().map(|cell| parts.count_in(*cell)).sum());
@@ -159,30 +161,37 @@ pub(super) struct Waiting {
 pub(super) struct Gardener<'a> {
     pub(super) triangles: &'a [[Point; 3]],
     pub(super) planes: &'a [Plane],
+    slabs: &'a [Vec<i32>; 3],
     pub(super) rules: &'a Rules,
     pub(super) trees: Trees,
     /// Of all parts of the cell in work.
     pub(super) corners: Vec<Corner>,
-    /// The part that is being cut, what of it is behind the plane, and its corners' sides.
-    pub(super) piece: Vec<Corner>,
-    pub(super) behind: Vec<Corner>,
-    pub(super) sides: Vec<i8>,
+    /// The part that is being cut, its corners' sides, and what of it is before the plane and behind it.
+    piece: Vec<Corner>,
+    sides: Vec<i8>,
+    halves: [Vec<Corner>; 2],
     pub(super) few: Few,
     jury: Jury,
 }
 
 impl<'a> Gardener<'a> {
-    fn new(triangles: &'a [[Point; 3]], planes: &'a [Plane], rules: &'a Rules) -> Self {
-        let (corners, piece, behind, sides) = Default::default();
+    fn new(
+        triangles: &'a [[Point; 3]],
+        planes: &'a [Plane],
+        slabs: &'a [Vec<i32>; 3],
+        rules: &'a Rules,
+    ) -> Self {
+        let (corners, piece, sides, halves) = Default::default();
         Self {
             triangles,
             planes,
+            slabs,
             rules,
             trees: Trees::default(),
             corners,
             piece,
-            behind,
             sides,
+            halves,
             few: Few::default(),
             jury: Jury::default(),
         }
@@ -259,8 +268,8 @@ impl<'a> Gardener<'a> {
                 Side::Behind => behind.push(*part),
                 Side::Cut => {
                     let [front, back] = self.split(*part, &plane, &rough, Cutter::Triangle(triangle));
-                    before.push(front);
-                    behind.push(back);
+                    before.extend(front);
+                    behind.extend(back);
                 }
             }
         }
@@ -310,26 +319,46 @@ impl<'a> Gardener<'a> {
         Side::of(before, behind)
     }
 
-    /// What of a part is before a plane, and what is behind it.
-    fn split(&mut self, part: Part, plane: &Plane, rough: &Rough, cutter: Cutter) -> [Part; 2] {
+    /// What of a part is before a plane, and what is behind it; there may be nothing if it reached beyond its cell.
+    fn split(&mut self, part: Part, plane: &Plane, rough: &Rough, cutter: Cutter) -> [Option<Part>; 2] {
         let triangle = &self.triangles[part.triangle as usize];
         self.piece.clear();
         if part.is_whole() {
             self.piece.extend(whole(triangle));
+            for (plane, cut) in self.slab_planes(part) {
+                self.knife(triangle, &plane, &Rough::of(&plane), cut.cutter());
+                std::mem::swap(&mut self.piece, &mut self.halves[usize::from(cut.keeps_back())]);
+            }
         } else {
             self.piece.extend_from_slice(part.corners(&self.corners));
         }
-        self.sides.clear();
-        self.sides.extend((0..self.piece.len()).map(|k| side(triangle, &self.piece, k, plane, rough) as i8));
-        let knife = Knife { triangle, line: plane.values(*triangle), sides: &self.sides };
-        let (corners, behind) = (&mut self.corners, &mut self.behind);
-        let first = corners.len() as u32;
-        let mut halves = [&mut *corners, &mut *behind];
-        knife.split(&self.piece, cutter, |half, corner, _| halves[half].push(corner));
-        let middle = corners.len() as u32;
-        corners.append(behind);
-        let end = corners.len() as u32;
-        [Part { first, count: middle - first, ..part }, Part { first: middle, count: end - middle, ..part }]
+        self.knife(triangle, plane, rough, cutter);
+        self.halves.each_ref().map(|half| {
+            let (first, count) = (self.corners.len() as u32, half.len() as u32);
+            self.corners.extend_from_slice(half);
+            (count > 0).then_some(Part { triangle: part.triangle, first, count, slabs: [Cut::NONE; 3] })
+        })
+    }
+
+    /// The planes beyond which a whole part is not in its cell.
+    pub(super) fn slab_planes(&self, part: Part) -> impl Iterator<Item = (Plane, Cut)> + use<'a> {
+        let slabs = self.slabs;
+        part.slabs.into_iter().filter_map(|cut| match cut.cutter() {
+            Cutter::Slab { axis, slab } if cut != Cut::NONE => {
+                Some((slab_plane(&slabs[axis], axis, slab), cut))
+            }
+            _ => None,
+        })
+    }
+
+    /// Cuts the piece in two.
+    fn knife(&mut self, triangle: &[Point; 3], plane: &Plane, rough: &Rough, cutter: Cutter) {
+        let Self { piece, sides, halves, .. } = self;
+        sides.clear();
+        sides.extend((0..piece.len()).map(|k| side(triangle, piece, k, plane, rough) as i8));
+        halves.iter_mut().for_each(Vec::clear);
+        let knife = Knife { triangle, line: plane.values(*triangle), sides };
+        knife.split(piece, cutter, |half, corner, _| halves[half].push(corner));
     }
 
     /// A part becomes a piece.
