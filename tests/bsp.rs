@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use micropoly::accel::mesh::TriangleMesh;
+use micropoly::bsp::pieces;
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bsp::lattice::Point;
 use micropoly::core::accel::bsp::sight::{Sight, View};
@@ -326,4 +327,41 @@ fn a_tolerance_loses_nothing() {
         wanted.sort_unstable();
         assert_eq!(found, wanted);
     }
+}
+
+/// Nothing of a triangle is missing, there twice or empty, and weights say where in it a corner is.
+#[test]
+fn pieces_share_out_their_triangles() {
+    let all = soup(&mut fastrand::Rng::with_seed(10), 120, 0.7);
+    for (slabs, tolerance) in [(1, 0.0), (2, 0.0), (6, 0.0), (2, 1.0e-2), (6, 1.0e-2)] {
+        let options = BspOptions { tolerance, ..exact(slabs) };
+        let grid = device().build_bsp(&all, &options).expect("it fits");
+        let (mut order, mut corners) = (BspOrder::default(), Vec::new());
+        device().sort_bsp(&grid, [1 << 19; 3], &mut order);
+        for piece in &order.pieces {
+            grid.corners_of(*piece, &mut corners);
+            assert!(corners.len() > 2, "{slabs}: piece {piece} is empty");
+        }
+        let mesh = pieces::mesh(&grid, &order.pieces);
+        let mut areas = vec![0.0; all.len()];
+        for fan in &mesh.triangles {
+            let own = fan.map(|corner| DVec3::from(mesh.positions[corner as usize].map(f64::from)));
+            areas[mesh.patches[fan[0] as usize] as usize] += area(own);
+        }
+        let wholes = all.iter().map(|triangle| triangle.map(|corner| DVec3::from(corner.map(f64::from))));
+        for (k, whole) in wholes.clone().enumerate() {
+            assert!((areas[k] - area(whole)).abs() < 2.0e-5 * (1.0 + areas[k]), "{slabs}: triangle {k}");
+        }
+        let wholes: Vec<_> = wholes.collect();
+        for (k, [u, v]) in mesh.uvs.iter().enumerate() {
+            let [a, b, c] = wholes[mesh.patches[k] as usize];
+            let there = a + f64::from(*u) * (b - a) + f64::from(*v) * (c - a);
+            let here = DVec3::from(mesh.positions[k].map(f64::from));
+            assert!((there - here).length() < 1.0e-5, "{slabs}: {there} {here}");
+        }
+    }
+}
+
+fn area([a, b, c]: [DVec3; 3]) -> f64 {
+    0.5 * (b - a).cross(c - a).length()
 }

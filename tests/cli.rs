@@ -653,6 +653,21 @@ fn sorting_a_mesh_says_what_it_takes() {
     let output = micropoly(&["accel", "sort", "scenes/teapot.bpt"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("these are Bézier patches"));
     let folder = tempfile::tempdir().expect("a folder");
+    let pieces = folder.path().join("pieces.obj").display().to_string();
+    let output = micropoly(&["accel", "sort", "scenes/ball.obj", "--repeat", "1", "-o", &pieces]);
+    assert!(output.status.success());
+    let written = std::fs::read_to_string(&pieces).expect("written");
+    let faces = |text: &str| text.lines().filter(|line| line.starts_with("f ")).count();
+    assert!(faces(&written) >= faces(&std::fs::read_to_string("scenes/ball.obj").expect("there")));
+    // Triangles without area count, as do places that nothing could be drawn at.
+    let odd = folder.path().join("odd.obj").display().to_string();
+    let text = "v 0 0 0\nv 1e30 0 0\nv 0 -3e37 0\nv 0 0 1e-40\nv 0 0 0\nf 1 2 3\nf 1 5 2\nf 1 2 4\n";
+    std::fs::write(&odd, text).expect("written");
+    for what in ["build", "query", "sort"] {
+        let output = micropoly(&["accel", what, &odd, "--repeat", "1"]);
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success() && said.starts_with("triangles     3"), "{output:?}");
+    }
     let json = folder.path().join("table.json").display().to_string();
     let output = micropoly(&["bench", "--bsp", "scenes/ball.obj", "--repeat", "1", "--json", &json]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
