@@ -13,6 +13,10 @@ use super::cut::Part;
 use super::shared::{CORNERS, Shared};
 use super::tree::{Gardener, Waiting};
 
+/// Where a plane cuts as many parts, they cut each other much: then they are first cut to the size of the cell, which takes
+/// longer, so that what is beyond it is not cut again and again.
+const CLIPPED: u32 = 3;
+
 /// Parts that are looked at together, and what is known about them.
 pub(super) struct Few {
     table: Table,
@@ -190,6 +194,7 @@ impl Few {
     }
 
     /// Cuts off what is beyond a slab of what was taken out.
+    #[inline(never)]
     fn clip(&mut self, triangle: &[Point; 3], plane: &Plane, cut: Cut, asked: u64, is_exact: bool) {
         self.sign_anew(triangle, plane);
         self.split(triangle, cut.cutter(), plane, asked, is_exact);
@@ -197,10 +202,11 @@ impl Few {
     }
 
     /// Puts a half of what was cut into a slot.
-    fn put_half(&mut self, half: usize, slot: usize, triangle: u32, others: u64, corners: &mut Vec<Corner>) {
+    #[inline(always)]
+    fn put_half(&mut self, half: usize, slot: usize, part: Part, others: u64, corners: &mut Vec<Corner>) {
         let Ring { corners: own, sides } = &self.halves[half];
         let (first, count) = (corners.len() as u32, own.len() as u32);
-        self.parts[slot] = Part { triangle, first, count, slabs: [Cut::NONE; 3] };
+        self.parts[slot] = Part { first, count, ..part };
         corners.extend_from_slice(own);
         self.sides.extend_from_slice(sides);
         let all = sides.iter().fold(Sides::default(), |all, sides| all.and(*sides));
@@ -208,6 +214,7 @@ impl Few {
     }
 
     /// Cuts what was taken out; the sides of new corners are only found for planes that are asked for.
+    #[inline(always)]
     fn split(&mut self, triangle: &[Point; 3], cutter: Cutter, plane: &Plane, asked: u64, is_exact: bool) {
         let Self { table, piece, signs, halves, .. } = self;
         for half in &mut *halves {
@@ -309,8 +316,9 @@ impl Gardener<'_> {
             return false;
         }
         self.keep_few(own);
+        let clips = cut.count_ones() >= CLIPPED;
         for slot in slots(cut) {
-            let [front, back] = self.split_few(slot, plane, planes);
+            let [front, back] = self.split_few(slot, plane, planes, clips);
             before |= front;
             behind |= back;
         }
@@ -339,7 +347,7 @@ impl Gardener<'_> {
 
     /// Cuts the part in a slot, and what is behind the plane goes to another; there may be nothing on one side if it reached beyond
     /// its cell. Gives the slots of what is before the plane, and behind it.
-    fn split_few(&mut self, slot: usize, plane: usize, planes: u64) -> [Set; 2] {
+    fn split_few(&mut self, slot: usize, plane: usize, planes: u64, clips: bool) -> [Set; 2] {
         let is_exact = self.rules.tolerance == 0.0;
         let part = self.few.parts[slot];
         let triangle = &self.triangles[part.triangle as usize];
@@ -347,9 +355,14 @@ impl Gardener<'_> {
         let slab_planes = self.slab_planes(part);
         let few = &mut self.few;
         few.open(slot, triangle, &self.corners);
-        for (plane, cut) in slab_planes {
-            few.clip(triangle, &plane, cut, others, is_exact);
+        let mut slabs = part.slabs;
+        if clips {
+            for (plane, cut) in slab_planes {
+                few.clip(triangle, &plane, cut, others, is_exact);
+            }
+            slabs = [Cut::NONE; 3];
         }
+        let half_part = Part { slabs, ..part };
         let exact = few.table.planes.plane(plane);
         few.sign(triangle, plane, &exact, is_exact);
         // What is made lies in both planes.
@@ -357,7 +370,7 @@ impl Gardener<'_> {
         let (mut places, mut place) = ([0; 2], slot);
         for half in 0..2 {
             if !few.halves[half].corners.is_empty() {
-                few.put_half(half, place, part.triangle, others, &mut self.corners);
+                few.put_half(half, place, half_part, others, &mut self.corners);
                 few.planes[place] = few.planes[slot];
                 places[half] = 1 << place;
                 few.free &= !(1 << place);
