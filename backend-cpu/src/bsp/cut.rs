@@ -126,8 +126,13 @@ struct Slicer<'a> {
 
 impl<'a> Slicer<'a> {
     fn new(slabs: &'a [Vec<i32>; 3]) -> Self {
-        let (sides, spare) = Default::default();
-        Self { slabs, share: Share::default(), sides, spare, ranges: [[0; 2]; 3] }
+        let (sides, spare, corners) = Default::default();
+        let share = Share {
+            parts: Vec::with_capacity(2 * TRIANGLES_AT_ONCE),
+            cells: Vec::with_capacity(2 * TRIANGLES_AT_ONCE),
+            corners,
+        };
+        Self { slabs, share, sides, spare, ranges: [[0; 2]; 3] }
     }
 
     fn cut(&mut self, number: u32, triangle: &[Point; 3]) {

@@ -127,16 +127,14 @@ fn build(triangles: &[[[f32; 3]; 3]], options: &BspOptions) -> Result<BspGrid, B
     if triangles.len() as u64 > u64::from(MOST_TRIANGLES) {
         return Err(BspError::Triangles);
     }
-    let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|c| c.is_finite());
-    if let Some(triangle) = triangles.par_iter().position_first(|triangle| !is_finite(triangle)) {
-        return Err(BspError::Corner { triangle });
-    }
-    let bounds = triangles.par_iter().map(|t| Bounds::of(t)).reduce(|| Bounds::NONE, Bounds::union);
-    let bounds = if triangles.is_empty() { Bounds::of(&[[0.0; 3]]) } else { bounds };
+    let bounds = bounds(triangles)?;
     let lattice = Lattice::new(&bounds);
-    let snapped = |[a, b, c]: &[[f32; 3]; 3]| [lattice.snap(*a), lattice.snap(*b), lattice.snap(*c)];
-    let corners: Vec<[Point; 3]> = triangles.par_iter().map(snapped).collect();
-    let planes: Vec<Plane> = corners.par_iter().map(|triangle| Plane::of(*triangle)).collect();
+    let snapped = |[a, b, c]: &[[f32; 3]; 3]| {
+        let corners = [lattice.snap(*a), lattice.snap(*b), lattice.snap(*c)];
+        (corners, Plane::of(corners))
+    };
+    let (mut corners, mut planes) = (Vec::new(), Vec::new());
+    triangles.par_iter().map(snapped).unzip_into_vecs(&mut corners, &mut planes);
     let grid = options.grid.unwrap_or_else(|| chosen_grid(triangles.len())).clamp(1, MOST_SLABS);
     let (low, high) = (lattice.snap(bounds.low), lattice.snap(bounds.high));
     let slabs = [0, 1, 2].map(|axis| slab_ends(low[axis], high[axis], grid));
@@ -163,6 +161,20 @@ fn build(triangles: &[[[f32; 3]; 3]], options: &BspOptions) -> Result<BspGrid, B
         grid_pieces,
         degenerate,
     })
+}
+
+/// The box around triangles, all of whose corners are finite; around the origin if there are none.
+fn bounds(triangles: &[[[f32; 3]; 3]]) -> Result<Bounds, BspError> {
+    let is_finite = |triangle: &[[f32; 3]; 3]| triangle.as_flattened().iter().all(|c| c.is_finite());
+    let some = |triangle: &[[f32; 3]; 3]| is_finite(triangle).then(|| Bounds::of(triangle));
+    match triangles.par_iter().map(some).try_reduce(|| Bounds::NONE, |a, b| Some(a.union(b))) {
+        Some(_) if triangles.is_empty() => Ok(Bounds::of(&[[0.0; 3]])),
+        Some(bounds) => Ok(bounds),
+        None => {
+            let triangle = triangles.iter().position(|triangle| !is_finite(triangle)).unwrap_or(0);
+            Err(BspError::Corner { triangle })
+        }
+    }
 }
 
 /// Slabs of the same size; no more than there are coordinates.
