@@ -345,8 +345,8 @@ impl Gardener<'_> {
         }
     }
 
-    /// Cuts the part in a slot, and what is behind the plane goes to another; there may be nothing on one side if it reached beyond
-    /// its cell. Gives the slots of what is before the plane, and behind it.
+    /// Cuts the part in a slot, of which nothing may be left on one side, or both, if it reached beyond its cell. Gives the slots
+    /// of what is before the plane, and behind it.
     fn split_few(&mut self, slot: usize, plane: usize, planes: u64, clips: bool) -> [Set; 2] {
         let is_exact = self.rules.tolerance == 0.0;
         let part = self.few.parts[slot];
@@ -355,22 +355,22 @@ impl Gardener<'_> {
         let slab_planes = self.slab_planes(part);
         let few = &mut self.few;
         few.open(slot, triangle, &self.corners);
-        let mut slabs = part.slabs;
+        let mut left = part;
         if clips {
             for (plane, cut) in slab_planes {
                 few.clip(triangle, &plane, cut, others, is_exact);
             }
-            slabs = [Cut::NONE; 3];
+            left.slabs = [Cut::NONE; 3];
         }
-        let half_part = Part { slabs, ..part };
         let exact = few.table.planes.plane(plane);
         few.sign(triangle, plane, &exact, is_exact);
         // What is made lies in both planes.
         few.split(triangle, Cutter::Triangle(few.cutters[plane]), &exact, others & !(1 << plane), is_exact);
+        few.free |= 1 << slot & Set::MAX << FEW;
         let (mut places, mut place) = ([0; 2], slot);
         for half in 0..2 {
             if !few.halves[half].corners.is_empty() {
-                few.put_half(half, place, half_part, others, &mut self.corners);
+                few.put_half(half, place, left, others, &mut self.corners);
                 few.planes[place] = few.planes[slot];
                 places[half] = 1 << place;
                 few.free &= !(1 << place);

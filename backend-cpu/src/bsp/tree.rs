@@ -325,12 +325,12 @@ impl<'a> Gardener<'a> {
         self.piece.clear();
         if part.is_whole() {
             self.piece.extend(whole(triangle));
-            for (plane, cut) in self.slab_planes(part) {
-                self.knife(triangle, &plane, &Rough::of(&plane), cut.cutter());
-                std::mem::swap(&mut self.piece, &mut self.halves[usize::from(cut.keeps_back())]);
-            }
         } else {
             self.piece.extend_from_slice(part.corners(&self.corners));
+        }
+        for (plane, cut) in self.slab_planes(part) {
+            self.knife(triangle, &plane, &Rough::of(&plane), cut.cutter());
+            std::mem::swap(&mut self.piece, &mut self.halves[usize::from(cut.keeps_back())]);
         }
         self.knife(triangle, plane, rough, cutter);
         self.halves.each_ref().map(|half| {
@@ -340,7 +340,7 @@ impl<'a> Gardener<'a> {
         })
     }
 
-    /// The planes beyond which a whole part is not in its cell.
+    /// The planes beyond which a part is not in its cell, if it reaches that far.
     pub(super) fn slab_planes(&self, part: Part) -> impl Iterator<Item = (Plane, Cut)> + use<'a> {
         let slabs = self.slabs;
         part.slabs.into_iter().filter_map(|cut| match cut.cutter() {
