@@ -78,10 +78,7 @@ fn of_cage(path: &Path, cage: &Cage, reading: &Reading, progress: ReadProgress<'
 }
 
 fn polygons(path: &Path, cage: &Cage) -> Result<Shape> {
-    polygon::polygons(cage).map(Shape::of_polygons).map_err(|error| {
-        let line = error.face().and_then(|face| cage.face_lines.get(face)).map_or(1, |line| *line as usize);
-        Error::format(path, line, error.to_string(), "triangulate the face, or repair it")
-    })
+    polygon::polygons(cage).map(Shape::of_polygons).map_err(|error| error.in_file(path, cage))
 }
 
 /// All free-form surfaces: of one kind, since they may share borders.

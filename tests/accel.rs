@@ -1,7 +1,7 @@
 //! The linear hierarchy on the CPU: the tree of core, whoever builds it, and what it finds.
 
 use micropoly::accel::mesh::TriangleMesh;
-use micropoly::accel::{boxes, frustum, query};
+use micropoly::accel::{boxes, frustum, query, sah};
 use micropoly::cage::generate::{Layout, torus_cage};
 use micropoly::core::accel::bounds::Bounds;
 use micropoly::core::accel::morton::{Grid, Precision};
@@ -64,4 +64,21 @@ fn a_camera_sees_all_of_a_mesh_that_it_stands_around_and_less_through_a_slit() {
     assert_eq!(seen(1.5), boxes.len());
     let few = seen(0.05);
     assert!(few > 0 && few < boxes.len() / 3, "{few}");
+}
+
+#[test]
+fn a_tree_is_as_good_whatever_its_size() {
+    let boxes = soup(&mut fastrand::Rng::with_seed(2), 500);
+    let cost = |scale: f32| {
+        let scaled = |corner: [f32; 3]| corner.map(|c| c * scale);
+        let boxes: Vec<Bounds> =
+            boxes.iter().map(|own| Bounds { low: scaled(own.low), high: scaled(own.high) }).collect();
+        sah(&CpuDevice::new(0).expect("threads").build_lbvh(&boxes, Precision::Bits63).nodes)
+    };
+    let wanted = cost(1.0);
+    assert!(wanted > 5.0, "{wanted}");
+    for exponent in [-80, -40, 40, 100] {
+        let found = cost(2.0_f32.powi(exponent));
+        assert!((found / wanted - 1.0).abs() < 0.05, "2^{exponent}: {found}, not {wanted}");
+    }
 }

@@ -356,6 +356,12 @@ fn pieces_share_out_their_triangles() {
         let empty = order.pieces.iter().filter(is_empty).count();
         assert!(empty < order.pieces.len() / 20, "{slabs}: {empty} of {} are empty", order.pieces.len());
         let mesh = pieces::mesh(&grid, &order.pieces);
+        let mut told = Vec::new();
+        for piece in &order.pieces {
+            grid.corners_of(*piece, &mut corners);
+            told.extend(corners.iter().map(|_| grid.pieces[*piece as usize].triangle));
+        }
+        assert_eq!(mesh.patches, told, "{slabs}: far to near");
         let mut areas = vec![0.0; all.len()];
         for fan in &mesh.triangles {
             let own = fan.map(|corner| DVec3::from(mesh.positions[corner as usize].map(f64::from)));

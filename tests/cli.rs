@@ -643,6 +643,10 @@ fn sorting_a_mesh_says_what_it_takes() {
         assert!(output.status.success() && said.contains("\nCPU ("), "{said}");
         assert!(said.ends_with("\nthe order is the CPU's, bit by bit\n"), "{said}");
     }
+}
+
+#[test]
+fn devices_that_sort_are_those_that_are_meant() {
     let output = micropoly(&["accel", "sort", "scenes/ball.obj", "--device", "0"]);
     assert_eq!(output.status.code(), Some(2), "a device of no backend");
     for what in ["build", "query", "sort"] {
@@ -650,6 +654,10 @@ fn sorting_a_mesh_says_what_it_takes() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(!output.status.success() && said.contains("no device is meant by `7`"), "{said}");
     }
+}
+
+#[test]
+fn trees_take_whatever_triangles_there_are_and_nothing_else() {
     let output = micropoly(&["accel", "sort", "scenes/teapot.bpt"]);
     assert!(String::from_utf8_lossy(&output.stderr).contains("these are Bézier patches"));
     let folder = tempfile::tempdir().expect("a folder");
@@ -668,6 +676,11 @@ fn sorting_a_mesh_says_what_it_takes() {
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
         assert!(output.status.success() && said.starts_with("triangles     3"), "{output:?}");
     }
+}
+
+#[test]
+fn bench_compares_grids_with_one_naive_tree() {
+    let folder = tempfile::tempdir().expect("a folder");
     let json = folder.path().join("table.json").display().to_string();
     let output = micropoly(&["bench", "--bsp", "scenes/ball.obj", "--repeat", "1", "--json", &json]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();

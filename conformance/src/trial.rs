@@ -301,6 +301,8 @@ fn run_one(file: &str, number: usize) -> Fate {
     let child = Command::new(program)
         .args([ONE, file, &number.to_string()])
         .envs(NO_CACHES)
+        // Where a driver that fails may leave notes.
+        .current_dir(std::env::temp_dir())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn();

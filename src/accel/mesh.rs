@@ -40,16 +40,9 @@ impl TriangleMesh {
         if file.cage.is_none() && !file.surfaces.is_empty() {
             return wrong("this file has surfaces (`surf`) only");
         }
-        let mut notes = file.warnings;
-        if !file.surfaces.is_empty() {
-            notes.push(format!("{}: its free-form surfaces are no mesh and are left out", path.display()));
-        }
+        let notes = file.notes_as_mesh(path);
         let mesh = file.cage.unwrap_or_default();
-        let own = Self::of_mesh(&mesh).map_err(|error| {
-            let line =
-                error.face().and_then(|face| mesh.face_lines.get(face)).map_or(1, |line| *line as usize);
-            Error::format(path, line, error.to_string(), "triangulate the face, or repair the mesh")
-        })?;
+        let own = Self::of_mesh(&mesh).map_err(|error| error.in_file(path, &mesh))?;
         Ok(Self { notes, ..own })
     }
 

@@ -169,15 +169,9 @@ pub fn sah(nodes: &[Node]) -> f64 {
 /// Areas of all boxes, in shares of the first's.
 fn areas(mut boxes: impl Iterator<Item = Bounds>) -> f64 {
     let Some(root) = boxes.next() else { return 0.0 };
-    let below: f64 = boxes.map(|bounds| half_area(&bounds)).sum();
-    let root = half_area(&root);
+    let below: f64 = boxes.map(|bounds| bounds.half_area()).sum();
+    let root = root.half_area();
     if root > 0.0 { 1.0 + below / root } else { 0.0 }
-}
-
-/// As [`Bounds::half_area`]; no box is so large or so small that this has no room for it.
-fn half_area(bounds: &Bounds) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|axis| f64::from(bounds.high[axis]) - f64::from(bounds.low[axis]));
-    x * y + y * z + z * x
 }
 
 fn depth(nodes: &[Node]) -> usize {

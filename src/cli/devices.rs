@@ -1,7 +1,7 @@
 //! `micropoly devices`, and the devices that `--backend` means.
 
 use micropoly::devices::{DeviceEntry, all_of, devices_of};
-use micropoly::{Backend, Result};
+use micropoly::{Backend, Error, Result};
 
 use super::args::Compared;
 
@@ -33,6 +33,12 @@ pub(super) fn compared(choice: Compared) -> Result<Vec<DeviceEntry>> {
             Ok(entries) => all.extend(entries),
             Err(missing) => say!("{}: {}", backend.name(), missing.why),
         }
+    }
+    if all.is_empty() {
+        return Err(Error::scene(
+            "no backend has a device",
+            "build with the feature `cpu`, which is on by default",
+        ));
     }
     Ok(all)
 }

@@ -37,6 +37,15 @@ pub struct Obj {
     pub warnings: Vec<String>,
 }
 
+impl Obj {
+    /// What is not used of it where only its polygons are.
+    pub(crate) fn notes_as_mesh(&self, path: &Path) -> Vec<String> {
+        let left_out = || format!("{}: its free-form surfaces are no mesh and are left out", path.display());
+        let surfaces = (!self.surfaces.is_empty()).then(left_out);
+        self.warnings.iter().cloned().chain(surfaces).collect()
+    }
+}
+
 /// Reads an OBJ file.
 ///
 /// # Errors

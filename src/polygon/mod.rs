@@ -7,10 +7,13 @@ mod ears;
 #[cfg(test)]
 mod tests;
 
+use std::path::Path;
+
 use rayon::prelude::*;
 
 use self::ears::{Flat, is_convex, sees_all, triangulated};
 use crate::cage::Cage;
+use crate::error::Error;
 use crate::shape::BezierPatch;
 
 /// Why a mesh cannot be drawn as polygons.
@@ -95,6 +98,17 @@ impl PolygonError {
             | Self::Large { face, .. } => Some(*face),
             Self::Corners { .. } | Self::Position { .. } | Self::Far { .. } | Self::Hole { .. } => None,
         }
+    }
+
+    /// The same, of a mesh from a file: with the line, if it is known.
+    #[must_use]
+    pub fn in_file(&self, path: &Path, mesh: &Cage) -> Error {
+        let line = self.face().and_then(|face| mesh.face_lines.get(face)).map_or(1, |line| *line as usize);
+        let remedy = match self {
+            Self::Far { .. } => "scale the mesh down, or mend the vertex",
+            _ => "triangulate the face, or repair the mesh",
+        };
+        Error::format(path, line, self.to_string(), remedy)
     }
 }
 

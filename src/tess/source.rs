@@ -165,18 +165,8 @@ fn of_obj(path: &Path) -> Result<TessSource> {
             remedy,
         ));
     };
-    let mut source = TessSource::of_mesh(mesh).map_err(|error| {
-        let line = error.face().and_then(|face| mesh.face_lines.get(face)).map_or(1, |line| *line as usize);
-        let remedy = match error {
-            PolygonError::Far { .. } => "scale the mesh down, or mend the vertex",
-            _ => "triangulate the face, or repair the mesh",
-        };
-        Error::format(path, line, error.to_string(), remedy)
-    })?;
-    source.notes = file.warnings;
-    if !file.surfaces.is_empty() {
-        source.notes.push(format!("{}: its free-form surfaces are no mesh and are left out", path.display()));
-    }
+    let mut source = TessSource::of_mesh(mesh).map_err(|error| error.in_file(path, mesh))?;
+    source.notes = file.notes_as_mesh(path);
     Ok(source)
 }
 

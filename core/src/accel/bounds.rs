@@ -2,7 +2,7 @@
 #![deny(clippy::float_arithmetic)]
 
 pub use crate::abi::Bounds;
-use crate::num::{add, max, min, mul, sub};
+use crate::num::{max, min};
 
 impl Bounds {
     /// Of nothing.
@@ -32,10 +32,11 @@ impl Bounds {
         (0..3).all(|axis| self.low[axis] <= other.low[axis] && self.high[axis] >= other.high[axis])
     }
 
-    /// Half of its surface; 0 of nothing.
+    /// Half of its surface; 0 of nothing. No kernel needs it, so it may be as large and as small as boxes are.
     #[must_use]
-    pub fn half_area(&self) -> f32 {
-        let side = |axis: usize| max(sub(self.high[axis], self.low[axis]), 0.0);
-        add(add(mul(side(0), side(1)), mul(side(1), side(2))), mul(side(2), side(0)))
+    #[allow(clippy::float_arithmetic)]
+    pub fn half_area(&self) -> f64 {
+        let side = |axis: usize| (f64::from(self.high[axis]) - f64::from(self.low[axis])).max(0.0);
+        side(0) * side(1) + side(1) * side(2) + side(2) * side(0)
     }
 }
