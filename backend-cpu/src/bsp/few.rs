@@ -9,6 +9,7 @@ use micropoly_core::accel::bsp::rank::BspNode;
 use micropoly_core::accel::bsp::table::{Division, FEW, Planes, SLOTS, Set, Sides, Table};
 use multiversion::multiversion;
 
+use super::clip::uncut;
 use super::cut::Part;
 use super::shared::{CORNERS, Shared};
 use super::tree::{Gardener, Waiting};
@@ -220,6 +221,9 @@ impl Few {
         for half in &mut *halves {
             half.corners.clear();
             half.sides.clear();
+        }
+        if let Some(half) = uncut(signs) {
+            return std::mem::swap(piece, &mut halves[half]);
         }
         let knife = Knife { triangle, line: plane.values(*triangle), sides: signs };
         // Both halves have each new corner, one after the other.

@@ -6,6 +6,7 @@
 //! | a tree in each cell | `tree.rs` |
 //! | the rest of a tree, once few parts are left | `few.rs` |
 //! | corners that those have in common | `shared.rs` |
+//! | a piece that planes cut | `clip.rs` |
 //! | the order of all pieces for an eye | `sort.rs` |
 //! | the same order, as the stages of any device find it | `stages.rs` |
 //! | samples that blend them in that order | `draw.rs` |
@@ -13,6 +14,7 @@
 //! All lists are counted, summed up and filled, or grow; nothing is dropped. What is built does not depend on the number of
 //! threads.
 
+mod clip;
 mod cut;
 mod draw;
 mod few;

@@ -6,12 +6,13 @@ use micropoly_core::accel::bsp::cells::slab_plane;
 use micropoly_core::accel::bsp::choose::{CORNERS, Jury, Side};
 use micropoly_core::accel::bsp::lattice::Point;
 use micropoly_core::accel::bsp::plane::{Plane, Rough};
-use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, Knife, side, whole};
+use micropoly_core::accel::bsp::polygon::{Corner, Cut, Cutter, side, whole};
 use micropoly_core::accel::bsp::rank::BspNode;
 use micropoly_core::accel::bsp::table::FEW;
 use multiversion::multiversion;
 use rayon::prelude::*;
 
+use super::clip::Clipper;
 use super::cut::{Part, Parts};
 use super::few::Few;
 use super::{BspError, Piece};
@@ -166,10 +167,7 @@ pub(super) struct Gardener<'a> {
     pub(super) trees: Trees,
     /// Of all parts of the cell in work.
     pub(super) corners: Vec<Corner>,
-    /// The part that is being cut, its corners' sides, and what of it is before the plane and behind it.
-    piece: Vec<Corner>,
-    sides: Vec<i8>,
-    halves: [Vec<Corner>; 2],
+    clipper: Clipper,
     pub(super) few: Few,
     jury: Jury,
 }
@@ -181,7 +179,7 @@ impl<'a> Gardener<'a> {
         slabs: &'a [Vec<i32>; 3],
         rules: &'a Rules,
     ) -> Self {
-        let (corners, piece, sides, halves) = Default::default();
+        let (corners, clipper) = Default::default();
         Self {
             triangles,
             planes,
@@ -189,9 +187,7 @@ impl<'a> Gardener<'a> {
             rules,
             trees: Trees::default(),
             corners,
-            piece,
-            sides,
-            halves,
+            clipper,
             few: Few::default(),
             jury: Jury::default(),
         }
@@ -322,18 +318,18 @@ impl<'a> Gardener<'a> {
     /// What of a part is before a plane, and what is behind it; there may be nothing if it reached beyond its cell.
     fn split(&mut self, part: Part, plane: &Plane, rough: &Rough, cutter: Cutter) -> [Option<Part>; 2] {
         let triangle = &self.triangles[part.triangle as usize];
-        self.piece.clear();
+        let slab_planes = self.slab_planes(part);
+        self.clipper.piece.clear();
         if part.is_whole() {
-            self.piece.extend(whole(triangle));
+            self.clipper.piece.extend(whole(triangle));
         } else {
-            self.piece.extend_from_slice(part.corners(&self.corners));
+            self.clipper.piece.extend_from_slice(part.corners(&self.corners));
         }
-        for (plane, cut) in self.slab_planes(part) {
-            self.knife(triangle, &plane, &Rough::of(&plane), cut.cutter());
-            std::mem::swap(&mut self.piece, &mut self.halves[usize::from(cut.keeps_back())]);
+        for (plane, cut) in slab_planes {
+            self.clipper.clip(triangle, &plane, cut);
         }
-        self.knife(triangle, plane, rough, cutter);
-        self.halves.each_ref().map(|half| {
+        self.clipper.cut(triangle, plane, rough, cutter);
+        self.clipper.halves.each_ref().map(|half| {
             let (first, count) = (self.corners.len() as u32, half.len() as u32);
             self.corners.extend_from_slice(half);
             (count > 0).then_some(Part { triangle: part.triangle, first, count, slabs: [Cut::NONE; 3] })
@@ -349,16 +345,6 @@ impl<'a> Gardener<'a> {
             }
             _ => None,
         })
-    }
-
-    /// Cuts the piece in two.
-    fn knife(&mut self, triangle: &[Point; 3], plane: &Plane, rough: &Rough, cutter: Cutter) {
-        let Self { piece, sides, halves, .. } = self;
-        sides.clear();
-        sides.extend((0..piece.len()).map(|k| side(triangle, piece, k, plane, rough) as i8));
-        halves.iter_mut().for_each(Vec::clear);
-        let knife = Knife { triangle, line: plane.values(*triangle), sides };
-        knife.split(piece, cutter, |half, corner, _| halves[half].push(corner));
     }
 
     /// A part becomes a piece.
